@@ -1,0 +1,51 @@
+#pragma once
+// The whole configuration as one aggregate, with the paper's values as defaults (interface.md,
+// "Config keys"). One struct a TOML table.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/solver_options.hpp"
+#include "packing/packing_options.hpp"
+#include "randomfield/field_options.hpp"
+
+namespace grainfield::triaxial {
+
+struct ParticleOptions {
+    double density = 2600;         ///< [kg/m3]
+    double normal_stiffness = 9e8; ///< k_n [Pa]
+    double stiffness_ratio = 0.1;  ///< k_s/k_n [-]
+    double friction_angle = 0.6;   ///< phi [rad]
+};
+
+struct WallOptions {
+    double friction_angle = 0;   ///< [rad]
+    double poisson_ratio = 0.2;  ///< as in YADE's FrictMat: k_s/k_n of the box [-]
+};
+
+struct TriaxialOptions {
+    double confining_stress = 100e3;         ///< sigma_3 [Pa]
+    double strain_rate = 0.1;                ///< of the current height [1/s]
+    std::optional<double> max_axial_strain;  ///< unset: "auto", once the peak is surely past [-]
+    double gravity = 0;                      ///< along -y [m/s2]
+};
+
+struct Config {
+    packing::Grading grading;
+    packing::PackingOptions packing;
+    ParticleOptions particle;
+    core::Damping damping{0.2, 0.2};
+    WallOptions wall;
+    randomfield::FieldOptions field;
+    TriaxialOptions triaxial;
+    core::TimeOptions time;
+    core::SolverOptions solver;
+
+    /// Checks every value; throws InputError naming key, value and what is allowed.
+    void validate() const;
+};
+
+}  // namespace grainfield::triaxial
