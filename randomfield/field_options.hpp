@@ -30,10 +30,10 @@ struct StiffnessMarginal {
 struct FieldOptions {
     Variable variable = Variable::none;
     Method method = Method::las;
-    std::string correlation = "markov";            ///< Eq. (10), the only one so far
-    std::uint64_t seed = 1;                        ///< [-]
-    Vec3 correlation_length{10.0, 1.0, 10.0};      ///< theta_x, theta_y, theta_z [m]
-    std::optional<std::int64_t> stage0_cells;      ///< largest stage 0 of LAS [-]
+    std::string correlation = "markov";        ///< Eq. (10), the only one so far
+    std::uint64_t seed = 1;                    ///< [-]
+    Vec3 correlation_length{10.0, 1.0, 10.0};  ///< theta_x, theta_y, theta_z [m]
+    std::optional<std::int64_t> stage0_cells;  ///< largest stage 0 of LAS [-]
     FrictionMarginal friction;
     StiffnessMarginal stiffness;
 

@@ -3,9 +3,7 @@
 // "Config keys"). One struct a TOML table.
 
 #include <cstdint>
-#include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/solver_options.hpp"
@@ -15,10 +13,10 @@
 namespace grainfield::triaxial {
 
 struct ParticleOptions {
-    double density = 2600;         ///< [kg/m3]
-    double normal_stiffness = 9e8; ///< k_n [Pa]
-    double stiffness_ratio = 0.1;  ///< k_s/k_n [-]
-    double friction_angle = 0.6;   ///< phi [rad]
+    double density = 2600;          ///< [kg/m3]
+    double normal_stiffness = 9e8;  ///< k_n [Pa]
+    double stiffness_ratio = 0.1;   ///< k_s/k_n [-]
+    double friction_angle = 0.6;    ///< phi [rad]
 };
 
 struct WallOptions {
@@ -33,6 +31,12 @@ struct TriaxialOptions {
     double gravity = 0;                      ///< along -y [m/s2]
 };
 
+/// The campaign around the runs; its sweep and cases are checked on loading and not kept here.
+struct MonteCarloOptions {
+    std::int32_t realizations = 250;  ///< of each case [-]
+    bool deterministic = true;        ///< the deterministic run of each case beside it [-]
+};
+
 struct Config {
     packing::Grading grading;
     packing::PackingOptions packing;
@@ -43,8 +47,10 @@ struct Config {
     TriaxialOptions triaxial;
     core::TimeOptions time;
     core::SolverOptions solver;
+    MonteCarloOptions montecarlo;
 
-    /// Checks every value; throws InputError naming key, value and what is allowed.
+    /// Checks every value, and values against each other. Throws InputError naming key, value and
+    /// what is allowed.
     void validate() const;
 };
 

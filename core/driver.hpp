@@ -1,0 +1,46 @@
+#pragma once
+// One step of a driven simulation: forces, step length, steering, motion, and the watch.
+
+#include "core/errors.hpp"
+#include "core/monitor.hpp"
+#include "core/simulation.hpp"
+#include "core/step_control.hpp"
+
+namespace grainfield::core {
+
+class Driver {
+  public:
+    /// How often the state is checked for NaN, lost spheres and the like, in steps.
+    static constexpr std::int64_t watch_interval = 50;
+
+    Driver(Simulation& simulation, const TimeOptions& time, Monitor& monitor)
+        : simulation_(simulation), control_(time), monitor_(monitor) {}
+
+    /// One step. steer(step) is called with forces current, before anything moves; it may set wall
+    /// velocities, gravity and the like. With `sums`, sums over contacts are valid there.
+    template <class Steer>
+    void step(bool sums, const Steer& steer) {
+        simulation_.compute_forces(sums);
+        const double step = control_.next(simulation_);
+        steer(step);
+        simulation_.advance(step);
+        if (simulation_.steps() % watch_interval == 0) watch();
+    }
+
+    /// Throws SimulationError if the state is broken, Interrupted if the user asked to stop.
+    void watch() {
+        simulation_.check_state();
+        if (monitor_.stop_requested()) throw Interrupted("stopped by the user");
+    }
+
+    Simulation& simulation() { return simulation_; }
+    StepControl& control() { return control_; }
+    Monitor& monitor() { return monitor_; }
+
+  private:
+    Simulation& simulation_;
+    StepControl control_;
+    Monitor& monitor_;
+};
+
+}  // namespace grainfield::core

@@ -1,0 +1,110 @@
+#include "core/files/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <string>
+
+#include "core/errors.hpp"
+#include "core/files/text_file.hpp"
+
+namespace grainfield::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file descriptor that closes itself.
+struct Descriptor {
+    int fd = -1;
+    explicit Descriptor(int opened) : fd(opened) {}
+    ~Descriptor() {
+        if (fd >= 0) ::close(fd);
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+
+    /// Some file systems report a full disk only here. True if all is well.
+    bool close() {
+        const int rc = ::close(fd);
+        fd = -1;
+        return rc == 0;
+    }
+};
+
+[[noreturn]] void fail(const fs::path& target, int error) {
+    throw FileError(fmt::format("{}: cannot be written: {}", target.string(), error_text(error)));
+}
+
+fs::path folder_of(const fs::path& file) {
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+/// The file that `target` really is. A rename would replace a link instead of the file behind it,
+/// and would happily turn /dev/null into an ordinary file; the one is followed, the other refused.
+fs::path real_target(const fs::path& target) {
+    std::error_code error;
+    fs::path real = target;
+    if (fs::is_symlink(fs::symlink_status(target, error))) {
+        real = fs::weakly_canonical(target, error);
+        if (error) fail(target, error.value());
+    }
+    struct stat info {};
+    if (::stat(real.c_str(), &info) == 0 && !S_ISREG(info.st_mode)) {
+        if (S_ISDIR(info.st_mode)) fail(target, EISDIR);
+        throw FileError(fmt::format("{}: cannot be written: not a regular file", target.string()));
+    }
+    return real;
+}
+
+void write_all(int fd, std::string_view content, const fs::path& target) {
+    while (!content.empty()) {
+        const ssize_t n = ::write(fd, content.data(), content.size());
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) fail(target, errno);
+        content.remove_prefix(static_cast<std::size_t>(n));
+    }
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const fs::path& target) : target_(real_target(target)) {
+    static std::atomic<unsigned> counter{0};
+    while (true) {
+        // Short, so that the longest allowed target name still works.
+        temporary_ = folder_of(target_) /
+                     fmt::format(".grainfield-{}-{}.tmp", ::getpid(), counter.fetch_add(1));
+        const Descriptor file(::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY, 0666));
+        if (file.fd >= 0) return;
+        if (errno != EEXIST) fail(target, errno);  // EEXIST: left by a killed run of our own id
+    }
+}
+
+AtomicFile::~AtomicFile() {
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::commit() {
+    const Descriptor file(::open(temporary_.c_str(), O_RDONLY));
+    if (file.fd < 0 || ::fsync(file.fd) != 0) fail(target_, errno);
+    const Descriptor folder(::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY));
+    if (folder.fd < 0) fail(target_, errno);
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(target_, errno);
+    temporary_.clear();
+    // The new name must outlive a power cut, too. Not every file system knows how (EINVAL).
+    if (::fsync(folder.fd) != 0 && errno != EINVAL && errno != ENOTSUP) fail(target_, errno);
+}
+
+void write_file_atomically(const fs::path& path, std::string_view content) {
+    AtomicFile file(path);
+    Descriptor out(::open(file.path().c_str(), O_WRONLY));
+    if (out.fd < 0) fail(path, errno);
+    write_all(out.fd, content, path);
+    if (!out.close()) fail(path, errno);
+    file.commit();
+}
+
+}  // namespace grainfield::core

@@ -1,0 +1,36 @@
+#pragma once
+// Files that are either the old ones or the new ones, never a part of either: the content goes to
+// a temporary name in the same folder, reaches the disk, and only then takes the target's name.
+
+#include <filesystem>
+#include <string_view>
+
+namespace grainfield::core {
+
+/// A temporary file beside `target`, for libraries that write by path. Gone again unless
+/// committed; the target stays as it was until then. FileError names file and reason.
+class AtomicFile {
+  public:
+    /// Creates the temporary, empty. The target's folder must exist; a link is followed.
+    explicit AtomicFile(const std::filesystem::path& target);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    /// Where to write.
+    const std::filesystem::path& path() const { return temporary_; }
+
+    /// Flushes the temporary to the disk and gives it the target's name. Whoever wrote it must
+    /// have closed it. Call once.
+    void commit();
+
+  private:
+    std::filesystem::path target_;
+    std::filesystem::path temporary_;  ///< empty once committed
+};
+
+/// Replaces (or makes) the file by these bytes. On any failure FileError names file and reason,
+/// and what was there before is still there.
+void write_file_atomically(const std::filesystem::path& path, std::string_view content);
+
+}  // namespace grainfield::core

@@ -1,0 +1,132 @@
+#include "core/files/hdf5_reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/errors.hpp"
+
+namespace grainfield::core {
+
+Hdf5Reader::Hdf5Reader(std::string_view image, std::filesystem::path path)
+    : path_(std::move(path)) {
+    if (!image.starts_with("\x89HDF\r\n\x1a\n")) fail("not an HDF5 file");
+    const Hdf5Handle access = hdf5_in_memory_access();
+    // HDF5 copies the image before it looks at it, const is only missing in the signature.
+    H5Pset_file_image(access, const_cast<char*>(image.data()), image.size());
+    file_ = Hdf5Handle(H5Fopen(hdf5_in_memory_name().c_str(), H5F_ACC_RDONLY, access), H5Fclose);
+    if (!file_) fail(fmt::format("damaged HDF5 file: {}", hdf5_error()));
+}
+
+void Hdf5Reader::fail(const std::string& message) const {
+    throw FileError(fmt::format("{}: {}", path_.string(), message));
+}
+
+bool Hdf5Reader::has(const std::string& object) const {
+    // H5Lexists wants every group on the way to exist.
+    for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
+        if (H5Lexists(file_, object.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+        if (end == std::string::npos) return true;
+    }
+}
+
+std::vector<std::string> Hdf5Reader::names(const std::string& group) const {
+    if (!has(group)) fail(fmt::format("{} is missing", group));
+    std::vector<std::string> found;
+    const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
+        static_cast<std::vector<std::string>*>(out)->emplace_back(name);
+        return 0;
+    };
+    if (H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect,
+                           &found, H5P_DEFAULT) < 0)
+        fail(fmt::format("{} is damaged: {}", group, hdf5_error()));
+    return found;
+}
+
+Hdf5Handle Hdf5Reader::open(const std::string& dataset) const {
+    if (!has(dataset)) fail(fmt::format("{} is missing", dataset));
+    Hdf5Handle opened(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!opened) fail(fmt::format("{} is damaged: {}", dataset, hdf5_error()));
+    return opened;
+}
+
+std::vector<std::size_t> Hdf5Reader::shape(const std::string& dataset) const {
+    const Hdf5Handle opened = open(dataset);
+    const Hdf5Handle space(H5Dget_space(opened), H5Sclose);
+    const int rank = H5Sget_simple_extent_ndims(space);
+    if (rank < 0) fail(fmt::format("{} is damaged: {}", dataset, hdf5_error()));
+    std::vector<hsize_t> dims(static_cast<std::size_t>(rank));
+    H5Sget_simple_extent_dims(space, dims.data(), nullptr);
+    return {dims.begin(), dims.end()};
+}
+
+std::size_t Hdf5Reader::readable_size(const std::string& dataset, Hdf5Type type) const {
+    const Hdf5Handle opened = open(dataset);
+    const Hdf5Handle stored(H5Dget_type(opened), H5Tclose);
+    const hid_t wanted = hdf5_memory_type(type);
+    if (H5Tget_class(stored) != H5Tget_class(wanted))
+        fail(fmt::format("{} holds values of another type", dataset));
+    // A dataset whose values were never written would read as zeros, and a damaged shape would ask
+    // for all memory there is. 1100: more than deflate can ever squeeze.
+    std::size_t count = 1;
+    const std::size_t most = H5Dget_storage_size(opened) * 1100 / H5Tget_size(wanted);
+    for (std::size_t n : shape(dataset)) {
+        if (n != 0 && count > most / n) fail(fmt::format("{} is cut short", dataset));
+        count *= n;
+    }
+    return count;
+}
+
+void Hdf5Reader::read_into(const std::string& dataset, Hdf5Type type, void* values) const {
+    const Hdf5Handle opened = open(dataset);
+    if (H5Dread(opened, hdf5_memory_type(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+        fail(fmt::format("{} is damaged: {}", dataset, hdf5_error()));
+}
+
+Hdf5Handle Hdf5Reader::open_attribute(const std::string& object, const std::string& name) const {
+    if (!has(object)) fail(fmt::format("{} is missing", object));
+    Hdf5Handle opened(
+        H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    if (!opened) fail(fmt::format("attribute {} of {} is missing", name, object));
+    return opened;
+}
+
+std::string Hdf5Reader::text_attribute(const std::string& object, const std::string& name) const {
+    const Hdf5Handle opened = open_attribute(object, name);
+    const Hdf5Handle type(H5Aget_type(opened), H5Tclose);
+    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0)
+        fail(fmt::format("attribute {} of {} is no text of fixed length", name, object));
+    std::string value(H5Tget_size(type), '\0');
+    if (H5Aread(opened, type, value.data()) < 0)
+        fail(fmt::format("attribute {} of {} is damaged: {}", name, object, hdf5_error()));
+    value.resize(std::min(value.find_last_not_of('\0') + 1, value.size()));  // npos + 1 is 0
+    return value;
+}
+
+std::int64_t Hdf5Reader::integer_attribute(const std::string& object,
+                                           const std::string& name) const {
+    const Hdf5Handle opened = open_attribute(object, name);
+    const Hdf5Handle space(H5Aget_space(opened), H5Sclose);
+    std::int64_t value = 0;
+    if (H5Sget_simple_extent_npoints(space) != 1 || H5Aread(opened, H5T_NATIVE_INT64, &value) < 0)
+        fail(fmt::format("attribute {} of {} is no integer", name, object));
+    return value;
+}
+
+std::string Hdf5Reader::list() const {
+    std::vector<std::string> datasets;
+    const auto collect = [](hid_t, const char* name, const H5O_info_t* info, void* out) -> herr_t {
+        if (info->type == H5O_TYPE_DATASET)
+            static_cast<std::vector<std::string>*>(out)->push_back(std::string("/") + name);
+        return 0;
+    };
+    if (H5Ovisit2(file_, H5_INDEX_NAME, H5_ITER_INC, collect, &datasets, H5O_INFO_BASIC) < 0)
+        fail(fmt::format("damaged HDF5 file: {}", hdf5_error()));
+    std::string text;
+    for (const std::string& name : datasets)
+        text += fmt::format("  {}: {}\n", name, fmt::join(shape(name), " x "));
+    return text;
+}
+
+}  // namespace grainfield::core

@@ -1,0 +1,63 @@
+#include "core/files/sphere_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/errors.hpp"
+#include "core/files/atomic_file.hpp"
+#include "core/files/sphere_formats.hpp"
+#include "core/files/text_file.hpp"
+
+namespace grainfield::core {
+namespace {
+
+struct Format {
+    const char* suffix;
+    SphereFile (*parse)(std::string_view, const std::filesystem::path&);
+    std::string (*format)(const SphereFile&);
+};
+
+constexpr Format formats[] = {
+    {".h5", parse_sphere_h5, format_sphere_h5},
+    {".csv", parse_sphere_csv, format_sphere_csv},
+    {".data", parse_lammps_data, format_lammps_data},
+    {".txt", parse_yade_text, format_yade_text},
+};
+
+const Format& format_of(const std::filesystem::path& path) {
+    const std::string suffix = path.extension().string();
+    const auto* found = std::find_if(std::begin(formats), std::end(formats),
+                                     [&](const Format& f) { return suffix == f.suffix; });
+    if (found == std::end(formats))
+        throw InputError(fmt::format("{}: suffix '{}' is not a format of sphere files; allowed: {}",
+                                     path.string(), suffix, sphere_file_suffixes));
+    return *found;
+}
+
+/// A store whose columns differ in length is a mistake in the program, not in the user's input.
+void require_whole(const ParticleStore& s) {
+    bool whole = s.block.size() == s.size();
+    for (const Vec3Column* column : {&s.position, &s.velocity, &s.spin})
+        whole = whole && column->x.size() == s.size() && column->y.size() == s.size() &&
+                column->z.size() == s.size();
+    for (const Column<double>* column : {&s.mass, &s.normal_stiffness, &s.friction_angle})
+        whole = whole && column->size() == s.size();
+    if (!whole) throw std::invalid_argument("write_spheres: columns of different length");
+}
+
+}  // namespace
+
+SphereFile read_spheres(const std::filesystem::path& path) {
+    const Format& format = format_of(path);
+    return format.parse(read_whole_file(path), path);
+}
+
+void write_spheres(const std::filesystem::path& path, const SphereFile& file) {
+    const Format& format = format_of(path);
+    require_whole(file.spheres);
+    write_file_atomically(path, format.format(file));
+}
+
+}  // namespace grainfield::core

@@ -1,0 +1,225 @@
+#include "core/frequency.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "kernels/contact_law.hpp"
+
+namespace grainfield::core {
+void FrequencyEstimator::assemble(const Simulation& simulation) {
+    const Scene& scene = simulation.scene();
+    const ParticleStore& s = scene.spheres;
+    const ContactList& contacts = simulation.contacts();
+    springs_.clear();
+    bool friction = scene.stiffness_ratio > 0 &&
+                    std::any_of(s.friction_angle.begin(), s.friction_angle.end(), [](double f) { return f > 0; });
+    const auto pairs = contacts.pairs();
+    for (std::size_t c = 0; c < pairs.size(); ++c) {
+        if (!contacts.touching(c)) continue;
+        const auto [i, j] = pairs[c];
+        const Vec3 branch = s.position[j] - s.position[i];
+        const double kn = kernels::contact_stiffness(0.5 * (s.radius[i] + s.radius[j]),
+                                                     s.normal_stiffness[i], s.normal_stiffness[j]);
+        springs_.push_back({i, j, branch.normalized(), kn, friction ? scene.stiffness_ratio * kn : 0.0,
+                            s.radius[i], s.radius[j]});
+    }
+    const auto wall_pairs = contacts.wall_pairs();
+    for (std::size_t c = 0; c < wall_pairs.size(); ++c) {
+        if (!contacts.touching(pairs.size() + c)) continue;
+        const auto [w, i] = wall_pairs[c];
+        const Wall& wall = scene.walls[w];
+        const double k = s.normal_stiffness[i];
+        const double ks_sphere = scene.stiffness_ratio * k;
+        const double ks_wall = wall.stiffness_ratio * wall.normal_stiffness;
+        const bool sticks = friction && wall.friction_angle > 0 && ks_wall > 0;
+        springs_.push_back({i, -1, -wall.normal,
+                            kernels::contact_stiffness(s.radius[i], k, wall.normal_stiffness),
+                            sticks ? kernels::contact_stiffness(s.radius[i], ks_sphere, ks_wall) : 0.0,
+                            s.radius[i], 0.0});
+    }
+    spheres_ = s.size();
+    offsets_.assign(spheres_ + 1, 0);
+    for (const Spring& spring : springs_) {
+        ++offsets_[spring.i + 1];
+        if (spring.j >= 0) ++offsets_[spring.j + 1];
+    }
+    for (std::size_t i = 0; i < spheres_; ++i) offsets_[i + 1] += offsets_[i];
+    incidences_.resize(offsets_.back());
+    std::vector<std::uint32_t> next(offsets_.begin(), offsets_.end() - 1);
+    for (std::size_t c = 0; c < springs_.size(); ++c) {
+        incidences_[next[springs_[c].i]++] = static_cast<std::uint32_t>(2 * c);
+        if (springs_[c].j >= 0) incidences_[next[springs_[c].j]++] = static_cast<std::uint32_t>(2 * c + 1);
+    }
+    scale_.resize(2 * spheres_);
+    for (std::size_t i = 0; i < spheres_; ++i) {
+        scale_[2 * i] = std::sqrt(simulation.inverse_inertial_mass()[i]);
+        scale_[2 * i + 1] = std::sqrt(simulation.inverse_inertia()[i]);
+    }
+}
+
+void FrequencyEstimator::apply(const std::vector<double>& x, std::vector<double>& y) const {
+    const auto part = [&x](std::size_t k) { return Eigen::Map<const Vec3>(&x[k]); };
+    for_chunks(spheres_, [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+            for (std::uint32_t e = offsets_[i]; e < offsets_[i + 1]; ++e) {
+                const Spring& k = springs_[incidences_[e] >> 1];
+                // Motion of the far body relative to the near one at the contact, seen from i.
+                Vec3 u = -scale_[2 * k.i] * part(6 * k.i);
+                Vec3 roll = k.radius_i * scale_[2 * k.i + 1] * part(6 * k.i + 3);
+                if (k.j >= 0) {
+                    u += scale_[2 * k.j] * part(6 * k.j);
+                    roll += k.radius_j * scale_[2 * k.j + 1] * part(6 * k.j + 3);
+                }
+                const double normal = u.dot(k.normal);
+                Vec3 shear = Vec3::Zero();
+                if (k.ks > 0) shear = k.ks * (u - normal * k.normal - roll.cross(k.normal));
+                const bool second = incidences_[e] & 1;
+                const Vec3 on_first = k.kn * normal * k.normal + shear;
+                force += second ? Vec3(-on_first) : on_first;
+                moment += (second ? k.radius_j : k.radius_i) * k.normal.cross(shear);
+            }
+            // Stiffness times displacement is minus the restoring force.
+            for (int a = 0; a < 3; ++a) {
+                y[6 * i + a] = -scale_[2 * i] * force[a];
+                y[6 * i + 3 + a] = -scale_[2 * i + 1] * moment[a];
+            }
+        }
+    });
+}
+
+void FrequencyEstimator::start_vector(const Simulation& simulation) {
+    const std::vector<double> local = local_square_frequencies(simulation);
+    const double highest = *std::max_element(local.begin(), local.end());
+    std::vector<double> start(6 * spheres_);
+    double norm2 = 0;
+    for (std::size_t i = 0; i < spheres_; ++i) {
+        const double weight = std::pow(local[i] / highest, 4);
+        for (std::size_t a = 0; a < 6; ++a) {
+            // A fixed pattern without symmetry, so that no mode is orthogonal to it by design.
+            const auto code = static_cast<double>((i * 6 + a) * 2654435761u % 1000003u);
+            start[6 * i + a] = weight * (code / 500001.5 - 1.0);
+            norm2 += start[6 * i + a] * start[6 * i + a];
+        }
+    }
+    const double fresh = mode_.size() == start.size() ? 0.3 : 1.0;
+    for (std::size_t k = 0; k < start.size(); ++k)
+        start[k] = fresh * start[k] / std::sqrt(norm2) + (fresh < 1.0 ? mode_[k] : 0.0);
+    mode_ = std::move(start);
+}
+
+double FrequencyEstimator::lanczos_round(int iterations) {
+    const std::size_t n = mode_.size();
+    const auto dot = [n](const std::vector<double>& a, const std::vector<double>& b) {
+        return sum_chunks<double>(n, [&](std::size_t begin, std::size_t end) {
+            double sum = 0;
+            for (std::size_t k = begin; k < end; ++k) sum += a[k] * b[k];
+            return sum;
+        });
+    };
+    const auto update = [n](std::vector<double>& a, double factor, const std::vector<double>& b) {
+        for_chunks(n, [&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end; ++k) a[k] += factor * b[k];
+        });
+    };
+    std::vector<std::vector<double>> basis;
+    std::vector<double> diagonal, off_diagonal;
+    std::vector<double> w(n);
+    std::vector<double> v = mode_;
+    double beta = std::sqrt(dot(v, v));
+    for (int k = 0; k < iterations && beta > 0; ++k) {
+        for (double& value : v) value /= beta;
+        basis.push_back(v);
+        apply(v, w);
+        const double alpha = dot(w, v);
+        diagonal.push_back(alpha);
+        update(w, -alpha, v);
+        if (k > 0) update(w, -off_diagonal.back(), basis[static_cast<std::size_t>(k) - 1]);
+        beta = std::sqrt(dot(w, w));
+        off_diagonal.push_back(beta);
+        if (beta < 1e-12 * std::abs(alpha)) break;  // an invariant subspace
+        v = w;
+    }
+    if (diagonal.empty()) return 0;
+    const auto m = static_cast<Eigen::Index>(diagonal.size());
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+    solver.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(diagonal.data(), m),
+                                  Eigen::Map<const Eigen::VectorXd>(off_diagonal.data(), m - 1));
+    const Eigen::VectorXd ritz = solver.eigenvectors().col(m - 1);
+    std::fill(mode_.begin(), mode_.end(), 0.0);
+    for (Eigen::Index k = 0; k < m; ++k) update(mode_, ritz[k], basis[static_cast<std::size_t>(k)]);
+    // Some eigenvalue lies within the residual of the Ritz value: err on the safe side.
+    return solver.eigenvalues()[m - 1] + off_diagonal.back() * std::abs(ritz[m - 1]);
+}
+
+double FrequencyEstimator::estimate(const Simulation& simulation, int restarts, int iterations) {
+    assemble(simulation);
+    if (springs_.empty()) {
+        mode_.clear();
+        return 0;
+    }
+    start_vector(simulation);
+    double square = 0;
+    for (int round = 0; round < restarts; ++round) square = lanczos_round(iterations);
+    return std::sqrt(std::max(0.0, square));
+}
+
+double isolated_frequency(const Simulation& simulation) {
+    const ParticleStore& s = simulation.spheres();
+    const double ratio = simulation.scene().stiffness_ratio;
+    double square = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const double kn = kernels::contact_stiffness(s.radius[i], s.normal_stiffness[i], s.normal_stiffness[i]);
+        const double m = simulation.inverse_inertial_mass()[i];
+        // Two contacts on opposite sides, neighbours moving against it: 4 K_n/m. Rolling and
+        // sliding of one contact, both bodies turning: 7 K_s/m.
+        square = std::max(square, std::max(4.0, 7.0 * ratio) * kn * m);
+    }
+    return std::sqrt(square);
+}
+
+std::vector<double> local_square_frequencies(const Simulation& simulation) {
+    const Scene& scene = simulation.scene();
+    const ParticleStore& s = scene.spheres;
+    const ContactList& contacts = simulation.contacts();
+    const auto pairs = contacts.pairs();
+    std::vector<double> local(s.size(), 0.0);
+    for_chunks(s.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            Eigen::Matrix3d directions = Eigen::Matrix3d::Zero();
+            double shear = 0;
+            for (std::uint32_t e = contacts.offsets()[i]; e < contacts.offsets()[i + 1]; ++e) {
+                const std::size_t c = contacts.incidences()[e] >> 1;
+                if (!contacts.touching(c)) continue;
+                Vec3 normal;
+                double kn = 0;
+                if (c < pairs.size()) {
+                    const auto [a, b] = pairs[c];
+                    normal = (s.position[b] - s.position[a]).normalized();
+                    kn = kernels::contact_stiffness(0.5 * (s.radius[a] + s.radius[b]),
+                                                    s.normal_stiffness[a], s.normal_stiffness[b]);
+                } else {
+                    const Wall& wall = scene.walls[contacts.wall_pairs()[c - pairs.size()].wall];
+                    normal = wall.normal;
+                    kn = kernels::contact_stiffness(s.radius[i], s.normal_stiffness[i], wall.normal_stiffness);
+                }
+                const double ks = scene.stiffness_ratio * kn;
+                directions += (kn - ks) * normal * normal.transpose();
+                directions.diagonal().array() += ks;
+                shear += ks;
+            }
+            const double translation =
+                Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>()
+                    .computeDirect(directions, Eigen::EigenvaluesOnly)
+                    .eigenvalues()[2] * simulation.inverse_inertial_mass()[i];
+            const double rotation =
+                shear * s.radius[i] * s.radius[i] * simulation.inverse_inertia()[i];
+            local[i] = std::max(translation, rotation);
+        }
+    });
+    return local;
+}
+
+}  // namespace grainfield::core

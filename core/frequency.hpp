@@ -1,0 +1,50 @@
+#pragma once
+// The highest natural frequency of the contact network: 2/omega_max bounds the time step.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/simulation.hpp"
+
+namespace grainfield::core {
+
+/// Estimates omega_max of the present contacts: translations and rotations, walls included, every
+/// contact taken as sticking (slip only softens). Lanczos iterations on M^-1/2 K M^-1/2, each the
+/// cost of about one force pass; the start vector is weighted towards light and stiffly held
+/// spheres, where the highest modes live, and the last mode found is kept for the next estimate.
+class FrequencyEstimator {
+  public:
+    /// Upper estimate of omega_max [rad/s]: the largest Ritz value plus its residual. `restarts`
+    /// rounds of `iterations` each. 0 where nothing touches.
+    double estimate(const Simulation& simulation, int restarts = 4, int iterations = 8);
+
+  private:
+    void assemble(const Simulation& simulation);
+    void apply(const std::vector<double>& x, std::vector<double>& y) const;
+    void start_vector(const Simulation& simulation);
+    double lanczos_round(int iterations);
+
+    /// A touching contact; j < 0 for a wall.
+    struct Spring {
+        std::int32_t i, j;
+        Vec3 normal;                // from i outwards [-]
+        double kn, ks;              // [N/m]
+        double radius_i, radius_j;  // [m]
+    };
+    std::vector<Spring> springs_;
+    std::vector<std::uint32_t> offsets_;
+    std::vector<std::uint32_t> incidences_;  // 2 * spring + side
+    std::vector<double> scale_;              // sqrt of inverse mass, inverse inertia: two a sphere
+    std::vector<double> mode_;               // six a sphere: translation, rotation
+    std::size_t spheres_ = 0;
+};
+
+/// Frequency a sphere could reach when it is caught between two others of its own size, before any
+/// contact exists: the largest over the spheres [rad/s].
+double isolated_frequency(const Simulation& simulation);
+
+/// Highest frequency of each sphere with all its neighbours held fixed, squared; a lower bound of
+/// its share in the network's modes [rad2/s2].
+std::vector<double> local_square_frequencies(const Simulation& simulation);
+
+}  // namespace grainfield::core

@@ -1,0 +1,106 @@
+#include "core/measures.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <vector>
+
+#include "kernels/contact_law.hpp"
+
+namespace grainfield::core {
+
+std::vector<Branch> force_branches(const Simulation& simulation) {
+    const ContactList& contacts = simulation.contacts();
+    const ParticleStore& s = simulation.spheres();
+    const auto pairs = contacts.pairs();
+    std::vector<Branch> branches;
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+        if (!contacts.touching(c)) continue;
+        if (c < pairs.size()) {
+            const auto [i, j] = pairs[c];
+            branches.push_back({s.position[i], s.position[j], -contacts.force(c)});
+        } else {
+            const auto& [w, i] = contacts.wall_pairs()[c - pairs.size()];
+            const Wall& wall = simulation.walls()[w];
+            const Vec3 x = s.position[i];
+            const Vec3 foot = x - wall.normal.dot(x - wall.point) * wall.normal;
+            branches.push_back({x, foot, -contacts.force(c)});
+        }
+    }
+    return branches;
+}
+
+Eigen::Matrix3d mean_stress(const Simulation& simulation, double volume) {
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (const Branch& b : force_branches(simulation)) sum += b.force * (b.to - b.from).transpose();
+    return sum / volume;
+}
+
+Fabric measure_fabric(const Simulation& simulation) {
+    const ContactList& contacts = simulation.contacts();
+    const ParticleStore& s = simulation.spheres();
+    const auto pairs = contacts.pairs();
+    const std::size_t n = s.size();
+    Fabric fabric;
+    if (n == 0) return fabric;
+    std::vector<int> count(n, 0);
+    double normals = 0;
+    const auto bodies = [&](std::size_t c, auto&& visit) {
+        if (c < pairs.size()) visit(pairs[c].i, pairs[c].j);
+        else visit(contacts.wall_pairs()[c - pairs.size()].sphere, -1);
+    };
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+        if (!contacts.touching(c)) continue;
+        Vec3 normal;
+        bodies(c, [&](std::int32_t i, std::int32_t j) {
+            ++count[i];
+            if (j >= 0) ++count[j];
+            normal = j >= 0 ? Vec3((s.position[j] - s.position[i]).normalized())
+                            : simulation.walls()[contacts.wall_pairs()[c - pairs.size()].wall].normal;
+        });
+        fabric.tensor += normal * normal.transpose();
+        normals += 1;
+    }
+    if (normals > 0) {
+        fabric.tensor /= normals;
+        const Vec3 values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(fabric.tensor).eigenvalues();
+        fabric.anisotropy = values[2] - values[0];
+    }
+    double contacts_of_all = 0, rattlers = 0, rattler_volume = 0, volume = 0, held = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        contacts_of_all += count[i];
+        const double v = s.radius[i] * s.radius[i] * s.radius[i];
+        volume += v;
+        if (count[i] < 4) {
+            rattlers += 1;
+            rattler_volume += v;
+        }
+    }
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+        if (contacts.touching(c))
+            bodies(c, [&](std::int32_t i, std::int32_t j) {
+                if (count[i] < 4 || (j >= 0 && count[j] < 4)) return;
+                held += j >= 0 ? 2 : 1;
+            });
+    const auto spheres = static_cast<double>(n);
+    fabric.coordination_number = contacts_of_all / spheres;
+    fabric.rattler_fraction = rattlers / spheres;
+    fabric.rattler_volume_fraction = rattler_volume / volume;
+    if (rattlers < spheres) fabric.mechanical_coordination_number = held / (spheres - rattlers);
+    return fabric;
+}
+
+double stiffness_sum(const Simulation& simulation, double volume) {
+    const ParticleStore& s = simulation.spheres();
+    const ContactList& contacts = simulation.contacts();
+    const auto pairs = contacts.pairs();
+    double sum = 0;
+    for (std::size_t c = 0; c < pairs.size(); ++c) {
+        if (!contacts.touching(c)) continue;
+        const auto [i, j] = pairs[c];
+        sum += kernels::contact_stiffness(0.5 * (s.radius[i] + s.radius[j]), s.normal_stiffness[i],
+                                          s.normal_stiffness[j]) *
+               (s.position[j] - s.position[i]).squaredNorm();
+    }
+    return sum / volume;
+}
+
+}  // namespace grainfield::core

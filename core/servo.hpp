@@ -1,0 +1,46 @@
+#pragma once
+// A wall that holds a stress: moved so that the force of the spheres on it meets its target.
+
+#include <cstddef>
+
+#include "core/simulation.hpp"
+
+namespace grainfield::core {
+
+/// Integral servo for one wall. In a step the wall moves outwards by
+///   gain * e/K + integral part,   e = force on the wall - target stress * area,
+/// where K is the stiffness of the wall's contacts as measured in this step, so that no gain
+/// depends on the material. The integral part follows a wall that must keep moving (shear) without
+/// lag; it stops growing while the speed is capped.
+class WallServo {
+  public:
+    struct Options {
+        double stress = 0;       ///< target, compression positive [Pa]
+        double max_speed = 0;    ///< cap of the wall's speed, > 0 [m/s]
+        double gain = 0.4;       ///< share of e/K answered in a step [-]
+        double integral = 0.01;  ///< growth of the integral part in a step [-]
+    };
+
+    WallServo(std::size_t wall, const Options& options) : wall_(wall), options_(options) {}
+
+    /// Sets the velocity of the wall for the coming step [s] from the present wall load. `area`
+    /// is the wall's [m2]. Returns the relative error of the stress before the step.
+    double steer(Simulation& simulation, double area, double step);
+
+    /// Starts with the wall already moving outwards at this speed [m/s].
+    void set_speed(double outward) { steady_speed_ = outward; }
+    void set_options(const Options& options) { options_ = options; }
+    const Options& options() const { return options_; }
+    std::size_t wall() const { return wall_; }
+    double steady_speed() const { return steady_speed_; }  ///< integral part [m/s]
+
+  private:
+    std::size_t wall_;
+    Options options_;
+    double steady_speed_ = 0;
+};
+
+/// Compressive force of the spheres on a wall [N].
+double wall_compression(const Simulation& simulation, std::size_t wall);
+
+}  // namespace grainfield::core

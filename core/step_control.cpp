@@ -1,0 +1,57 @@
+#include "core/step_control.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace grainfield::core {
+namespace {
+
+/// Steps between two estimates. A contact that forms takes several steps to matter, and safety
+/// leaves room for one more spring on the worst sphere.
+std::int64_t estimate_interval(std::size_t spheres) { return spheres > 20000 ? 100 : 20; }
+
+constexpr int full_rounds = 5;    // of Lanczos, from scratch
+constexpr int update_rounds = 1;  // starting from the last mode
+
+}  // namespace
+
+double StepControl::frequency(const Simulation& simulation, int rounds) {
+    return std::max(estimator_.estimate(simulation, rounds), isolated_frequency(simulation));
+}
+
+double StepControl::next(Simulation& simulation) {
+    const bool scaled = options_.mass_scaling > 1.0;
+    if (options_.step && !scaled) return *options_.step;
+    if (next_estimate_ >= 0 && simulation.steps() < next_estimate_) return step_;
+    const bool first = next_estimate_ < 0;
+    omega_ = frequency(simulation, first ? full_rounds : update_rounds);
+    if (scaled && (first || omega_ > 1.05 * omega_target_)) scale_masses(simulation);
+    const double governing = scaled ? std::max(omega_, omega_target_) : omega_;
+    step_ = options_.step ? *options_.step : options_.safety * 2.0 / governing;
+    next_estimate_ = simulation.steps() + estimate_interval(simulation.spheres().size());
+    return step_;
+}
+
+void StepControl::scale_masses(Simulation& simulation) {
+    const std::size_t n = simulation.spheres().size();
+    std::vector<double> scale(n, 1.0);
+    simulation.set_inertia_scale(scale);
+    omega_target_ = frequency(simulation, full_rounds) / options_.mass_scaling;
+    const std::vector<double> local = local_square_frequencies(simulation);
+    // A mode of the network is up to sqrt(2) faster than a sphere between fixed neighbours: find
+    // the smallest margin that brings the scaled network under the target.
+    for (double margin = 1.0; margin < 3.0; margin *= 1.1) {
+        for (std::size_t i = 0; i < n; ++i)
+            scale[i] = std::max(1.0, margin * local[i] / (omega_target_ * omega_target_));
+        simulation.set_inertia_scale(scale);
+        omega_ = frequency(simulation, full_rounds);
+        if (omega_ <= omega_target_) break;
+    }
+    const auto& mass = simulation.spheres().mass;
+    double scaled_mass = 0;
+    for (std::size_t i = 0; i < n; ++i) scaled_mass += mass[i] * scale[i];
+    inertia_ratio_ = scaled_mass / std::accumulate(mass.begin(), mass.end(), 0.0);
+}
+
+}  // namespace grainfield::core

@@ -1,0 +1,44 @@
+#pragma once
+// The time step of a run, and the masses it needs.
+
+#include <cstdint>
+
+#include "core/frequency.hpp"
+#include "core/simulation.hpp"
+#include "core/solver_options.hpp"
+
+namespace grainfield::core {
+
+/// Chooses the step: fixed, or safety * 2/omega_max, estimated anew now and then as contacts form.
+///
+/// With mass scaling X, spheres whose own frequency is too high for a step X times larger get the
+/// mass (and inertia) that it needs; gravity keeps acting on the real mass.
+class StepControl {
+  public:
+    explicit StepControl(const TimeOptions& options) : options_(options) {}
+
+    /// Step for the coming advance() [s]; forces must be current. May change the inertia of the
+    /// spheres (mass scaling).
+    double next(Simulation& simulation);
+
+    /// The present limit 2/omega_max with the inertia in use [s]; 0 before the first estimate.
+    double limit() const { return omega_ > 0 ? 2.0 / omega_ : 0.0; }
+    /// Inertia of all spheres over their real mass, 1 without scaling [-].
+    double inertia_ratio() const { return inertia_ratio_; }
+    /// Forces a full estimate at the next step (properties or walls have changed).
+    void reset() { next_estimate_ = -1; }
+
+  private:
+    void scale_masses(Simulation& simulation);
+    double frequency(const Simulation& simulation, int rounds);
+
+    TimeOptions options_;
+    FrequencyEstimator estimator_;
+    double omega_ = 0;        // with the inertia in use [rad/s]
+    double omega_target_ = 0; // mass scaling: what the scaled network may have [rad/s]
+    double inertia_ratio_ = 1;
+    double step_ = 0;
+    std::int64_t next_estimate_ = -1;
+};
+
+}  // namespace grainfield::core

@@ -1,0 +1,214 @@
+#include "packing/block.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/driver.hpp"
+#include "core/errors.hpp"
+#include "core/measures.hpp"
+#include "core/random.hpp"
+#include "core/servo.hpp"
+#include "packing/deposit.hpp"
+
+namespace grainfield::packing {
+namespace {
+
+// Shaking and lid, after the prototypes of physics.md: 0.3-3 g and 10-25 Hz pack this block.
+constexpr double shaking_acceleration = 2.0;  // share of gravity [-]
+constexpr double shaking_frequency = 15.0;    // [1/s]
+constexpr double bout = 0.25;                 // of shaking, between two looks at the lid [s]
+constexpr double lid_stress_share = 1.0;      // lid stress over the block's own weight's [-]
+constexpr double stalled = 2e-3;              // a bout that lowers the lid less, of b_y [-]
+constexpr double friction_factor = 0.7;       // the friction angle goes down by this when stalled
+constexpr double lowest_friction = 2e-3;      // below this: none [rad]
+constexpr double rest = 1e-3;                 // unbalanced force ratio of a settled state [-]
+
+/// A wall deforms like half of the contact with a mirror image: infinitely stiff, it gives the
+/// same force at the same overlap on this side of the mirror plane, so that the block stays in
+/// equilibrium when its walls become mirror images (phase 2).
+constexpr double mirror_stiffness_factor = 1e6;
+
+constexpr std::size_t lid = 3;  // y high, in the order of box_walls()
+
+class BlockPacker {
+  public:
+    BlockPacker(const PackingOptions& options, const Material& material, core::Scene scene,
+                double lid_height, core::Monitor& monitor)
+        : options_(options),
+          material_(material),
+          simulation_(std::move(scene), kernels::reference_kernels()),
+          driver_(simulation_, core::TimeOptions{}, monitor),
+          random_(options.seed, core::Stream::packing_shaking) {
+        simulation_.set_wall_point(lid, Vec3(0, lid_height, 0));
+    }
+
+    /// Runs under plain gravity until at rest; the lid stays where it is.
+    void settle(const char* stage) {
+        driver_.monitor().begin(stage);
+        simulation_.set_gravity(gravity());
+        simulation_.set_wall_velocity(lid, Vec3::Zero());
+        const double deadline = simulation_.time() + 30.0;
+        double ratio = 1;
+        double speed = 0;
+        const double negligible = 1e-4 * std::sqrt(options_.gravity * options_.block.y());
+        do {
+            const bool look = simulation_.steps() % 50 == 0;
+            driver_.step(look, [&](double) {
+                if (!look) return;
+                ratio = simulation_.unbalanced_force_ratio();
+                speed = mean_speed();
+            });
+            if (simulation_.steps() % 2000 == 0)
+                driver_.monitor().progress(-1, simulation_.steps(),
+                                           fmt::format("unbalanced force ratio {:.2g}", ratio));
+            if (simulation_.time() > deadline)
+                throw SimulationError(fmt::format(
+                    "the block does not come to rest: unbalanced force ratio {:.2g}, mean speed {:.2g} m/s "
+                    "after 30 s", ratio, speed));
+        } while (ratio > rest || speed > negligible);
+        simulation_.compute_forces(true);
+    }
+
+    /// Shakes for a bout with the lid pressing lightly; the lid never goes below b_y.
+    void shake(double friction_angle) {
+        simulation_.set_friction_angle(friction_angle);
+        const double area = options_.block.x() * options_.block.z();
+        core::WallServo servo(lid, {.stress = lid_stress_share * own_stress(), .max_speed = 0.2});
+        const double start = simulation_.time();
+        const double phase_x = 2 * std::numbers::pi * random_.uniform(0, bouts_);
+        const double phase_z = 2 * std::numbers::pi * random_.uniform(1, bouts_);
+        ++bouts_;
+        while (simulation_.time() < start + bout) {
+            driver_.step(false, [&](double step) {
+                const double angle = 2 * std::numbers::pi * shaking_frequency * (simulation_.time() - start);
+                const double a = shaking_acceleration * options_.gravity;
+                simulation_.set_gravity(gravity() + Vec3(a * std::sin(angle + phase_x), 0.5 * a * std::sin(2 * angle),
+                                                         a * std::sin(angle + phase_z)));
+                servo.steer(simulation_, area, step);
+                const double down = -simulation_.walls()[lid].velocity.y();
+                const double room = std::max(0.0, (lid_height() - options_.block.y()) / step);
+                if (down > room) simulation_.set_wall_velocity(lid, Vec3(0, -room, 0));
+            });
+        }
+    }
+
+    double lid_height() const { return simulation_.walls()[lid].point.y(); }
+    double porosity(double height) const {
+        return 1 - simulation_.spheres().solid_volume() / (options_.block.x() * options_.block.z() * height);
+    }
+    /// Mean stress at mid-height of a block under its own weight [Pa].
+    double own_stress() const {
+        return 0.5 * bulk_unit_weight(material_, options_.porosity, options_.gravity) * options_.block.y();
+    }
+    double mean_stress() const {
+        return core::mean_stress(simulation_, options_.block.prod()).trace() / 3;
+    }
+    double top_of_bed() const {
+        double top = 0;
+        for (std::size_t i = 0; i < simulation_.spheres().size(); ++i)
+            top = std::max(top, simulation_.spheres().position.y[i] + simulation_.spheres().radius[i]);
+        return top;
+    }
+    core::Simulation& simulation() { return simulation_; }
+
+  private:
+    Vec3 gravity() const { return {0, -options_.gravity, 0}; }
+    double mean_speed() const {
+        double sum = 0;
+        const core::ParticleStore& s = simulation_.spheres();
+        for (std::size_t i = 0; i < s.size(); ++i) sum += s.velocity[i].norm();
+        return sum / static_cast<double>(s.size());
+    }
+
+    const PackingOptions& options_;
+    const Material& material_;
+    core::Simulation simulation_;
+    core::Driver driver_;
+    core::RandomStream random_;
+    std::uint64_t bouts_ = 0;
+};
+
+}  // namespace
+
+double bulk_unit_weight(const Material& material, double porosity, double gravity) {
+    return material.density * (1 - porosity) * gravity;
+}
+
+Block pack_block(const PackingOptions& options, const Grading& grading, const Material& material,
+                 core::Monitor& monitor) {
+    Block block;
+    block.grading = draw_diameters(grading, (1 - options.porosity) * options.block.prod(), options.seed,
+                                   options.spheres);
+    const std::size_t n = block.grading.diameter.size();
+    core::Scene scene;
+    scene.spheres.resize(n);
+    for (std::size_t i = 0; i < n; ++i) scene.spheres.radius[i] = 0.5 * block.grading.diameter[i];
+    scene.spheres.set_density(material.density);
+    std::fill(scene.spheres.normal_stiffness.begin(), scene.spheres.normal_stiffness.end(), material.normal_stiffness);
+    std::fill(scene.spheres.friction_angle.begin(), scene.spheres.friction_angle.end(), material.friction_angle);
+    scene.stiffness_ratio = material.stiffness_ratio;
+    scene.damping = material.damping;
+    const double height = place_at_random(scene.spheres, options.block.x(), options.block.z(),
+                                          2.5 * options.block.y(), options.seed);
+    core::Wall wall;
+    wall.friction_angle = material.wall_friction_angle;
+    wall.normal_stiffness = mirror_stiffness_factor * material.normal_stiffness;
+    wall.stiffness_ratio = material.wall_stiffness_ratio;
+    scene.walls = core::box_walls({Vec3::Zero(), {options.block.x(), height, options.block.z()}}, wall);
+
+    BlockPacker packer(options, material, std::move(scene), height, monitor);
+    packer.settle("settling one block");
+    block.settled_height = packer.top_of_bed();
+    core::Simulation& simulation = packer.simulation();
+    simulation.set_wall_point(lid, Vec3(0, std::max(block.settled_height, options.block.y()), 0));
+
+    monitor.begin("compacting the block");
+    const double limit = 2 * packer.own_stress();
+    double friction = material.friction_angle;
+    const auto lower_friction = [&] {
+        friction = friction * friction_factor < lowest_friction ? 0.0 : friction * friction_factor;
+    };
+    for (int failed_at_rest = 0;;) {
+        const double before = packer.lid_height();
+        packer.shake(friction);
+        const double now = packer.lid_height();
+        monitor.progress(-1, simulation.steps(),
+                         fmt::format("porosity {:.4f}, friction {:.3f} rad", packer.porosity(now), friction));
+        if (now > options.block.y()) {
+            if (before - now < stalled * options.block.y()) {
+                if (friction == 0.0)
+                    throw InputError(fmt::format(
+                        "packing.porosity = {:g}: cannot be reached with this grading and block; shaking without "
+                        "friction ended at {:.4f}", options.porosity, packer.porosity(now)));
+                lower_friction();
+            }
+            continue;
+        }
+        simulation.set_friction_angle(material.friction_angle);
+        packer.settle("settling the compacted block");
+        block.mean_stress = packer.mean_stress();
+        if (block.mean_stress <= limit) break;
+        if (friction == 0.0 && ++failed_at_rest > 20)
+            throw InputError(fmt::format(
+                "packing.porosity = {:g}: cannot be reached without stress with this grading and block; it holds "
+                "{:.3g} Pa, allowed is {:.3g} Pa", options.porosity, block.mean_stress, limit));
+        lower_friction();
+    }
+    block.compaction_friction_angle = friction;
+    block.porosity = packer.porosity(options.block.y());
+    block.steps = simulation.steps();
+    block.spheres = simulation.spheres();
+    for (std::size_t i = 0; i < n; ++i) {
+        block.spheres.velocity.set(i, Vec3::Zero());
+        block.spheres.spin.set(i, Vec3::Zero());
+        const Vec3 x = block.spheres.position[i];
+        if ((x.array() < 0).any() || (x.array() > options.block.array()).any())
+            throw SimulationError(fmt::format("sphere {} of the block is outside", i));
+    }
+    return block;
+}
+
+}  // namespace grainfield::packing

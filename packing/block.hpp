@@ -1,0 +1,47 @@
+#pragma once
+// Phase 1: one block of spheres, packed to the target porosity by gravity, shaking and a light lid.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/monitor.hpp"
+#include "core/particle_store.hpp"
+#include "core/solver_options.hpp"
+#include "packing/grading.hpp"
+#include "packing/packing_options.hpp"
+
+namespace grainfield::packing {
+
+/// What the spheres are made of during the packing (Table 2).
+struct Material {
+    double density = 2600;               ///< [kg/m3]
+    double normal_stiffness = 9e8;       ///< k_n [Pa]
+    double stiffness_ratio = 0.1;        ///< k_s/k_n [-]
+    double friction_angle = 0.6;         ///< phi [rad]
+    core::Damping damping{0.2, 0.2};     ///< local [-]
+    double wall_friction_angle = 0;      ///< [rad]
+    double wall_stiffness_ratio = 0.2;   ///< k_s/k_n of the box [-]
+};
+
+/// Bulk weight of a packing [N/m3].
+double bulk_unit_weight(const Material& material, double porosity, double gravity);
+
+struct Block {
+    core::ParticleStore spheres;   ///< at rest in [0, b_x] x [0, b_y] x [0, b_z]
+    GradingDraw grading;
+    double porosity = 0;                   ///< [-]
+    double settled_height = 0;             ///< of the bed before compaction [m]
+    double mean_stress = 0;                ///< a third of the trace, own weight included [Pa]
+    double compaction_friction_angle = 0;  ///< the lowest friction that was needed [rad]
+    std::int64_t steps = 0;                ///< taken [-]
+};
+
+/// Packs one block. Spheres fall into the box, settle with full friction, and are compacted by
+/// shaking under a light lid; the friction is lowered only as far as the porosity needs and is
+/// restored for the final settling, the lid held at b_y. Ends at rest with all centres inside and a
+/// mean stress of no more than twice that of the block's own weight.
+/// Throws InputError if the porosity cannot be reached, naming the porosity that was.
+Block pack_block(const PackingOptions& options, const Grading& grading, const Material& material,
+                 core::Monitor& monitor);
+
+}  // namespace grainfield::packing

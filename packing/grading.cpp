@@ -1,0 +1,123 @@
+#include "packing/grading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/random.hpp"
+
+namespace grainfield::packing {
+namespace {
+
+constexpr std::uint64_t most_draws = 64;
+constexpr double close_enough = 3.0;  // deviation of the curve at any sieve [% of mass]
+
+double volume(const std::vector<double>& diameters) {
+    double cubes = 0;
+    for (double d : diameters) cubes += d * d * d;
+    return std::numbers::pi / 6 * cubes;
+}
+
+}  // namespace
+
+NumberDistribution::NumberDistribution(const Grading& grading) {
+    for (std::size_t k = 0; k + 1 < grading.sieve_diameter.size(); ++k) {
+        const double d0 = grading.sieve_diameter[k], d1 = grading.sieve_diameter[k + 1];
+        const double share = (grading.passing[k + 1] - grading.passing[k]) / 100.0;
+        if (share <= 0) continue;
+        const double slope = share / (d1 - d0);
+        // Number of grains a unit of mass: the integral of f/D^3 over the segment.
+        const double u0 = inverse_mean_cube_;
+        inverse_mean_cube_ += 0.5 * slope * (1 / (d0 * d0) - 1 / (d1 * d1));
+        segments_.push_back({d0, d1, slope, u0, inverse_mean_cube_, grading.passing[k] / 100.0});
+    }
+    for (Segment& s : segments_) {
+        s.u0 /= inverse_mean_cube_;
+        s.u1 /= inverse_mean_cube_;
+    }
+}
+
+double NumberDistribution::quantile(double u) const {
+    auto s = segments_.begin();
+    while (s + 1 != segments_.end() && u > s->u1) ++s;
+    const double inverse_square =
+        1 / (s->d0 * s->d0) - 2 * (u - s->u0) * inverse_mean_cube_ / s->slope;
+    return std::clamp(1 / std::sqrt(std::max(inverse_square, 1 / (s->d1 * s->d1))), s->d0, s->d1);
+}
+
+double NumberDistribution::mass_share(double u) const {
+    auto s = segments_.begin();
+    while (s + 1 != segments_.end() && u > s->u1) ++s;
+    return s->mass0 + s->slope * (quantile(u) - s->d0);
+}
+
+double NumberDistribution::mean_cube(double u0, double u1) const {
+    return (mass_share(u1) - mass_share(u0)) / ((u1 - u0) * inverse_mean_cube_);
+}
+
+GradingDraw draw_diameters(const Grading& grading, double target_volume, std::uint64_t seed,
+                           std::optional<std::int32_t> count) {
+    const NumberDistribution distribution(grading);
+    const core::RandomStream stream(seed, core::Stream::packing_grading);
+    // Strata are numbered from the largest grains down, so that the largest ones, which decide the
+    // volume, change little with n.
+    const auto draw = [&](std::uint64_t attempt, std::int32_t n) {
+        std::vector<double> diameters;
+        for (std::int32_t k = 0; k < n; ++k) {
+            const double u = 1 - (k + stream.uniform(attempt, static_cast<std::uint64_t>(k))) / n;
+            diameters.push_back(distribution.quantile(u));
+        }
+        std::sort(diameters.begin(), diameters.end());
+        return diameters;
+    };
+    const auto worst_deviation = [&](const std::vector<double>& diameters) {
+        const std::vector<double> achieved = achieved_passing(diameters, grading.sieve_diameter);
+        double worst = 0;
+        for (std::size_t k = 0; k < achieved.size(); ++k)
+            worst = std::max(worst, std::abs(achieved[k] - grading.passing[k]));
+        return worst;
+    };
+    // The volume of n stratified grains grows with n but for small jumps of the largest.
+    const double expected = target_volume / (std::numbers::pi / 6 * distribution.mean_cube(0.0, 1.0));
+    const auto count_for_volume = [&](std::uint64_t attempt) {
+        double best = HUGE_VAL;
+        std::int32_t n = 1;
+        const auto last = static_cast<std::int32_t>(std::ceil(2.5 * expected)) + 4;
+        for (std::int32_t k = std::max(1, static_cast<std::int32_t>(0.3 * expected)); k <= last; ++k) {
+            const double miss = std::abs(volume(draw(attempt, k)) - target_volume);
+            if (miss >= best) continue;
+            best = miss;
+            n = k;
+        }
+        return n;
+    };
+    // One grain of the coarsest fraction can hold a quarter of the mass: of several draws the first
+    // whose curve is close everywhere is taken, else the closest.
+    GradingDraw result;
+    double best = HUGE_VAL;
+    for (std::uint64_t attempt = 0; attempt < most_draws && best > close_enough; ++attempt) {
+        std::vector<double> drawn = draw(attempt, count ? *count : count_for_volume(attempt));
+        const double deviation = worst_deviation(drawn);
+        if (deviation >= best) continue;
+        best = deviation;
+        result.diameter = std::move(drawn);
+    }
+    result.scale = std::cbrt(target_volume / volume(result.diameter));
+    for (double& d : result.diameter) d *= result.scale;
+    return result;
+}
+
+std::vector<double> achieved_passing(const std::vector<double>& diameters,
+                                     const std::vector<double>& sieves) {
+    double total = 0;
+    std::vector<double> passing(sieves.size(), 0.0);
+    for (double d : diameters) {
+        total += d * d * d;
+        for (std::size_t k = 0; k < sieves.size(); ++k)
+            if (d <= sieves[k]) passing[k] += d * d * d;
+    }
+    for (double& p : passing) p *= 100 / total;
+    return passing;
+}
+
+}  // namespace grainfield::packing

@@ -1,0 +1,76 @@
+#include "packing/isotropic.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace grainfield::packing {
+namespace {
+
+constexpr double rest = 1e-3;              // unbalanced force ratio [-]
+constexpr double stress_tolerance = 2e-3;  // of each wall [-]
+constexpr double most_strain_rate = 0.5;   // cap of the walls' speed over the half dimension [1/s]
+constexpr std::int64_t most_steps = 200000;
+
+}  // namespace
+
+Vec3 box_dimensions(const core::Simulation& simulation) {
+    const auto walls = simulation.walls();
+    Vec3 size;
+    for (int a = 0; a < 3; ++a) size[a] = walls[2 * a + 1].point[a] - walls[2 * a].point[a];
+    return size;
+}
+
+double wall_area(const Vec3& dimensions, int axis) {
+    return dimensions[(axis + 1) % 3] * dimensions[(axis + 2) % 3];
+}
+
+double axis_stress(const core::Simulation& simulation, int axis) {
+    const auto low = static_cast<std::size_t>(2 * axis);
+    return 0.5 *
+           (core::wall_compression(simulation, low) + core::wall_compression(simulation, low + 1)) /
+           wall_area(box_dimensions(simulation), axis);
+}
+
+IsotropicResult compress_isotropically(core::Driver& driver, double stress) {
+    core::Simulation& simulation = driver.simulation();
+    const Vec3 start = box_dimensions(simulation);
+    std::vector<core::WallServo> servos;
+    for (std::size_t w = 0; w < 6; ++w)
+        servos.emplace_back(w, core::WallServo::Options{
+                                   .stress = stress,
+                                   .max_speed = 0.5 * most_strain_rate * start[static_cast<int>(w) / 2]});
+    IsotropicResult result;
+    for (bool reached = false; !reached; ++result.steps) {
+        const bool look = result.steps % 20 == 0;
+        driver.step(look, [&](double step) {
+            const Vec3 size = box_dimensions(simulation);
+            double worst = 0;
+            for (core::WallServo& servo : servos) {
+                const double error =
+                    servo.steer(simulation, wall_area(size, static_cast<int>(servo.wall()) / 2), step);
+                worst = std::max(worst, std::abs(error));
+            }
+            if (!look) return;
+            result.stress_error = worst;
+            result.unbalanced_force_ratio = simulation.unbalanced_force_ratio();
+            reached = worst < stress_tolerance && result.unbalanced_force_ratio < rest;
+        });
+        if (result.steps % 100 == 0)
+            driver.monitor().progress(-1, result.steps,
+                                      fmt::format("unbalanced force ratio {:.2g}, stress within {:.2g} %",
+                                                  result.unbalanced_force_ratio, 100 * result.stress_error));
+        if (result.steps > most_steps)
+            throw SimulationError(fmt::format(
+                "the isotropic stress of {:g} Pa is not reached: after {} steps the walls are within {:.2g} % and the "
+                "unbalanced force ratio is {:.2g}", stress, result.steps, 100 * result.stress_error,
+                result.unbalanced_force_ratio));
+    }
+    for (std::size_t w = 0; w < 6; ++w) simulation.set_wall_velocity(w, Vec3::Zero());
+    simulation.compute_forces(true);
+    return result;
+}
+
+}  // namespace grainfield::packing

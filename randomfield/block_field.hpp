@@ -1,0 +1,58 @@
+#pragma once
+// The module's front door: random fields of soil properties on the grid of blocks.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "randomfield/field_error.hpp"
+#include "randomfield/field_options.hpp"
+#include "randomfield/grid.hpp"
+#include "randomfield/las_generator.hpp"
+#include "randomfield/marginals.hpp"
+
+namespace grainfield::randomfield {
+
+/// One realization. Every column has one value a cell, at GridSpec::index(), or is empty.
+struct BlockField {
+    GridSpec grid;
+    std::vector<double> G;                 ///< cell averages before the marginal [-]
+    std::vector<double> G_stiffness;       ///< Variable::both: those of the stiffness [-]
+    std::vector<double> friction_angle;    ///< empty unless random [rad]
+    std::vector<double> normal_stiffness;  ///< k_n, empty unless random [Pa]
+
+    /// Mapping cell -> sphere: out[s] = column[cell[s]], cell from GridSpec::index_of_block() or
+    /// index_at(). An empty column (property not random) leaves `out` as it is.
+    static void map(std::span<const double> column, std::span<const std::size_t> cell,
+                    std::span<double> out);
+};
+
+/// Set up once (milliseconds for the paper's 6 x 12 x 6 blocks), then any number of draws.
+class FieldGenerator {
+  public:
+    /// InputError where grid or options are not valid or no such field can be computed.
+    FieldGenerator(const GridSpec& grid, const FieldOptions& options);
+
+    /// Realization k: a pure function of (seed, k). Safe from many threads. With Variable::none
+    /// only G is drawn, that of the friction angle. Friction and stiffness are uncorrelated, each
+    /// the same whether drawn alone or with the other.
+    [[nodiscard]] BlockField draw(std::uint64_t realization) const;
+
+    [[nodiscard]] const GridSpec& grid() const { return generator_.grid(); }
+    [[nodiscard]] const FieldOptions& options() const { return options_; }
+    [[nodiscard]] const LasGenerator& generator() const { return generator_; }
+    /// Variance of a cell's G: below 1, as cells are local averages [-].
+    [[nodiscard]] double gamma() const { return generator_.gamma(); }
+    /// E[k_n of a cell] / field.stiffness.mean, see StiffnessTransform::mean_ratio() [-].
+    [[nodiscard]] double stiffness_mean_ratio() const { return stiffness_.mean_ratio(); }
+    /// Largest error of the generator's covariances in units of gamma, without sampling: round-off
+    /// where the method is exact. InputError above max_error_cells cells [-].
+    [[nodiscard]] double covariance_error() const;
+
+  private:
+    FieldOptions options_;
+    LasGenerator generator_;
+    StiffnessTransform stiffness_;
+};
+
+}  // namespace grainfield::randomfield

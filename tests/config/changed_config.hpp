@@ -1,0 +1,82 @@
+#pragma once
+// A config in which every key differs from its default, as text and as a struct.
+
+#include <string_view>
+
+#include "triaxial/config/config.hpp"
+
+namespace grainfield::triaxial {
+
+inline constexpr std::string_view changed_text = R"(
+[grading]
+sieve_diameter = [0.011, 0.05, 0.2]
+passing = [0, 40.5, 100]
+[packing]
+seed = 7
+block = [0.3, 0.2, 0.1]
+blocks = [2, 3, 4]
+porosity = 0.41
+gravity = 1.62
+spheres = 351
+isotropic_stress = 5e3
+[particle]
+density = 2700
+normal_stiffness = 1e8
+stiffness_ratio = 0.2
+friction_angle = 0.5
+[damping]
+force = 0.1
+moment = 0.05
+[wall]
+friction_angle = 0.01
+poisson_ratio = 0.3
+[field]
+variable = "both"
+method = "cholesky"
+seed = 8
+correlation = "markov"   # the only one so far
+correlation_length = [5, 0.5, 6.0]
+stage0_cells = 512
+friction = { minimum = 0.2, maximum = 0.8, s = 3 }
+stiffness.mean = 8e8
+stiffness.cov = 1.6
+stiffness.preserve_mean = true
+[triaxial]
+confining_stress = 200e3
+strain_rate = 0.02
+max_axial_strain = 0.05
+gravity = 9.81
+[time]
+step = 1e-6
+safety = 0.7
+mass_scaling = 2
+[solver]
+precision = "double"
+isa = "avx2"
+[montecarlo]
+realizations = 3
+deterministic = false
+)";
+
+inline Config changed_config() {
+    Config c;
+    c.grading = {{0.011, 0.05, 0.2}, {0, 40.5, 100}};
+    c.packing = {7, {0.3, 0.2, 0.1}, {2, 3, 4}, 0.41, 1.62, 351, 5e3};
+    c.particle = {2700, 1e8, 0.2, 0.5};
+    c.damping = {0.1, 0.05};
+    c.wall = {0.01, 0.3};
+    c.field.variable = randomfield::Variable::both;
+    c.field.method = randomfield::Method::cholesky;
+    c.field.seed = 8;
+    c.field.correlation_length = {5, 0.5, 6};
+    c.field.stage0_cells = 512;
+    c.field.friction = {0.2, 0.8, 3};
+    c.field.stiffness = {8e8, 1.6, true};
+    c.triaxial = {200e3, 0.02, 0.05, 9.81};
+    c.time = {1e-6, 0.7, 2};
+    c.solver = {core::Precision::double_, core::Isa::avx2};
+    c.montecarlo = {3, false};
+    return c;
+}
+
+}  // namespace grainfield::triaxial

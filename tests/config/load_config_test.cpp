@@ -1,0 +1,170 @@
+// From file and --set to a Config.
+#include "triaxial/config/load_config.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/config/changed_config.hpp"
+#include "tests/config/config_equality.hpp"
+#include "tests/config/config_fixture.hpp"
+#include "triaxial/config/config_keys.hpp"
+#include "triaxial/config/toml_text.hpp"
+
+namespace grainfield::triaxial {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using Overrides = std::vector<std::string>;
+
+class LoadConfig : public ConfigTest {};
+
+/// The config block of interface.md ("Config keys"), as it stands there.
+constexpr std::string_view papers_text = R"(
+[grading]
+sieve_diameter = [0.010, 0.020, 0.040, 0.100, 0.160, 0.200]   # m
+passing        = [0, 0, 31.47, 90.93, 99.64, 100]             # % by mass
+[packing]
+seed = 1
+block = [0.25, 0.25, 0.25]      # m
+blocks = [6, 12, 6]
+porosity = 0.40
+gravity = 9.81                  # m/s2, along -y
+[particle]
+density = 2600                  # kg/m3
+normal_stiffness = 9e8          # Pa
+stiffness_ratio = 0.1           # ks/kn
+friction_angle = 0.6            # rad
+[damping]
+force = 0.2
+moment = 0.2
+[wall]
+friction_angle = 0
+poisson_ratio = 0.2
+[field]
+variable = "none"
+method = "las"
+seed = 1
+correlation_length = [10.0, 1.0, 10.0]
+[field.friction]
+minimum = 0.3
+maximum = 0.9
+s = 2.0
+[field.stiffness]
+mean = 9e8
+cov = 0.8
+[triaxial]
+confining_stress = 100e3
+strain_rate = 0.1
+max_axial_strain = "auto"
+gravity = 0
+[time]
+step = "auto"
+safety = 0.8
+mass_scaling = 1.0
+[solver]
+precision = "mixed"
+isa = "auto"
+[montecarlo]
+realizations = 250
+deterministic = true
+)";
+
+TEST_F(LoadConfig, DefaultsAreThePapers) {
+    const Config papers = load_config(write("paper.toml", papers_text));
+    expect_equal(Config{}, papers);
+    expect_equal(load_config(std::nullopt), papers);
+    expect_equal(load_config(write("empty.toml", "")), papers);
+    expect_equal(load_config(write("comment.toml", "# nothing\n[packing]\n")), papers);
+}
+
+TEST_F(LoadConfig, ReadsEveryKey) {
+    expect_equal(load_config(write("changed.toml", changed_text)), changed_config());
+}
+
+TEST_F(LoadConfig, TheChangedTextChangesEveryKey) {
+    Config defaults, changed = changed_config();
+    const Keys before = config_keys(defaults), after = config_keys(changed);
+    ASSERT_EQ(before.size(), after.size());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if (before[i].path == "field.correlation") continue;  // "markov" is the only one
+        const auto a = before[i].slot.get(), b = after[i].slot.get();
+        EXPECT_FALSE(a.has_value() == b.has_value() && (!a || toml_text(*a) == toml_text(*b)))
+            << before[i].path;
+    }
+}
+
+TEST_F(LoadConfig, FilesThatCannotBeReadAreNamed) {
+    EXPECT_THAT(message_of<FileError>([] { load_config("nowhere.toml"); }),
+                "cannot read nowhere.toml: No such file or directory");
+    EXPECT_THAT(message_of<FileError>([&] { load_config(folder_); }),
+                HasSubstr("it is a directory"));
+    EXPECT_THAT(message_of<FileError>([] { load_config("/dev/zero"); }), HasSubstr("16 MiB"));
+}
+
+TEST_F(LoadConfig, SyntaxErrorsHaveLineAndColumn) {
+    const auto file = write("broken.toml", "[packing]\nseed = = 3\n");
+    EXPECT_THAT(message_of<InputError>([&] { load_config(file); }),
+                StartsWith(file.string() + ":2:8: not valid TOML: "));
+    const auto twice = write("twice.toml", "[packing]\nseed = 1\nseed = 2\n");
+    EXPECT_THAT(message_of<InputError>([&] { load_config(twice); }),
+                StartsWith(twice.string() + ":3:"));
+    const auto binary = write("binary.toml", std::string_view("\x89HDF\r\n\x1a\n\0\0", 10));
+    EXPECT_THAT(message_of<InputError>([&] { load_config(binary); }),
+                StartsWith(binary.string() + ":1:"));
+}
+
+TEST_F(LoadConfig, SettingsGoOverTheFileAndLaterOnesOverEarlier) {
+    const auto file = write("a.toml", "[packing]\nporosity = 0.5\nseed = 3\n");
+    const Overrides settings{"packing.porosity=0.6",           " packing.porosity = 0.45 ",
+                             "field.variable=friction",        "solver.isa=scalar",
+                             "field.friction={minimum=0.25}",  "field.friction.s=1",
+                             "packing.blocks=[1, 2, 3]",       "time.step=\"auto\"",
+                             "triaxial.max_axial_strain=auto", "montecarlo.deterministic=false"};
+    Config expected;
+    expected.packing.seed = 3;
+    expected.packing.porosity = 0.45;
+    expected.packing.blocks = {1, 2, 3};
+    expected.field.variable = randomfield::Variable::friction;
+    expected.field.friction.minimum = 0.25;
+    expected.field.friction.s = 1;
+    expected.solver.isa = core::Isa::scalar;
+    expected.montecarlo.deterministic = false;
+    expect_equal(load_config(file, settings), expected);
+}
+
+TEST_F(LoadConfig, LaterKeysOfTheContractAreRefusedNotIgnored) {
+    for (const char* key : {"data = \"a.csv\"", "cross_correlation = 0.5"}) {
+        const auto file = write("later.toml", std::string("[field]\n") + key + "\n");
+        const std::string message = message_of<InputError>([&] { load_config(file); });
+        EXPECT_THAT(message, StartsWith(file.string() + ":2: field." + key));
+        EXPECT_THAT(message, HasSubstr("not available in this version"));
+    }
+}
+
+TEST(ConfigValidate, ChecksWhatNoFileChecked) {
+    EXPECT_NO_THROW(Config{}.validate());
+    Config config;
+    config.particle.density = -1;
+    EXPECT_EQ(message_of<InputError>([&] { config.validate(); }),
+              "particle.density = -1: a number > 0 is expected");
+    config = {};
+    config.triaxial.strain_rate = std::nan("");
+    EXPECT_THAT(message_of<InputError>([&] { config.validate(); }),
+                StartsWith("triaxial.strain_rate = nan"));
+    config = {};
+    config.solver.isa = static_cast<core::Isa>(17);
+    EXPECT_THAT(message_of<InputError>([&] { config.validate(); }), StartsWith("solver.isa"));
+    config = {};
+    config.packing.seed = ~std::uint64_t{0};  // TOML could not hold it
+    EXPECT_THAT(message_of<InputError>([&] { config.validate(); }), StartsWith("packing.seed"));
+    config = {};
+    config.grading.passing[1] = 50;
+    EXPECT_THAT(message_of<InputError>([&] { config.validate(); }), StartsWith("grading.passing"));
+}
+
+}  // namespace
+}  // namespace grainfield::triaxial

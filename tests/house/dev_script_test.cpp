@@ -1,0 +1,155 @@
+// `dev` and `.ci/run` as a bare machine meets them. The tools they call are stand-ins that write
+// down how they were called; nothing is installed or built.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace grainfield::house {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+std::string read(const fs::path& path) {
+    std::ifstream stream(path);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+class DevScript : public testing::Test {
+  protected:
+    void SetUp() override {
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+        tool("cmake", record);
+        tool("ctest", record);
+        tool("apt-get", record);
+        tool("dpkg-query", "echo installed");
+        tool("id", "echo 0");
+        tool("sudo", record);
+    }
+    void TearDown() override { fs::remove_all(folder); }
+
+    /// Puts a stand-in for a tool first in the path.
+    void tool(const std::string& name, const std::string& body) const {
+        const fs::path path = folder / name;
+        std::ofstream(path) << "#!/bin/sh\n" << body << "\n";
+        fs::permissions(path, fs::perms::owner_all);
+    }
+
+    /// Runs a script of the repository from a foreign folder, without stdin; gives its exit code.
+    int run(const std::string& script, const std::string& arguments) const {
+        const std::string command = "cd / && PATH='" + folder.string() + "':\"$PATH\" CALLS='" +
+                                    (folder / "calls").string() + "' '" GRAINFIELD_SOURCE_DIR "/" +
+                                    script + "' " + arguments + " <&- >'" +
+                                    (folder / "output").string() + "' 2>&1";
+        const int status = std::system(command.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+
+    std::string calls() const { return read(folder / "calls"); }
+    std::string output() const { return read(folder / "output"); }
+
+    const std::string record = "echo \"$(basename \"$0\") $*\" >>\"$CALLS\"";
+    const fs::path folder =
+        fs::temp_directory_path() / ("grainfield_dev_" + std::to_string(::getpid()));
+};
+
+TEST_F(DevScript, HelpNamesEveryCommand) {
+    EXPECT_EQ(run("dev", "help"), 0);
+    for (const char* command : {"run", "test", "build", "bench", "format", "lint"})
+        EXPECT_THAT(output(), HasSubstr("\n  " + std::string(command) + " "));
+}
+
+TEST_F(DevScript, RefusesAnUnknownCommand) {
+    EXPECT_EQ(run("dev", "biuld"), 2);
+    EXPECT_THAT(output(), HasSubstr("unknown command 'biuld'"));
+    EXPECT_THAT(calls(), IsEmpty());
+}
+
+TEST_F(DevScript, InstallsNothingWhereAllIsThere) {
+    EXPECT_EQ(run("dev", "build"), 0) << output();
+    EXPECT_EQ(calls(), "cmake --preset release\ncmake --build --preset release -j\n");
+}
+
+TEST_F(DevScript, InstallsExactlyWhatIsMissing) {
+    tool("dpkg-query", "case $* in *gnuplot-nox | *g++) exit 1 ;; *) echo installed ;; esac");
+    EXPECT_EQ(run("dev", "build"), 0) << output();
+    EXPECT_THAT(calls(), HasSubstr(" update\n"));
+    EXPECT_THAT(calls(), HasSubstr("install -y --no-install-recommends g++ gnuplot-nox\n"));
+    EXPECT_THAT(calls(), Not(HasSubstr("sudo")));
+}
+
+TEST_F(DevScript, InstallsTheTestsPackagesOnlyForTests) {
+    tool("dpkg-query", "case $* in *chromium) exit 1 ;; *) echo installed ;; esac");
+    EXPECT_EQ(run("dev", "build"), 0) << output();
+    EXPECT_THAT(calls(), Not(HasSubstr("apt-get")));
+    EXPECT_EQ(run("dev", "test --quick"), 0) << output();
+    EXPECT_THAT(calls(), HasSubstr("--no-install-recommends chromium\n"));
+}
+
+TEST_F(DevScript, UsesSudoWhereNotRootAndNeverAsks) {
+    tool("dpkg-query", "case $* in *g++) exit 1 ;; *) echo installed ;; esac");
+    tool("id", "echo 1000");
+    EXPECT_EQ(run("dev", "build"), 0) << output();
+    EXPECT_THAT(calls(), HasSubstr("sudo -n env DEBIAN_FRONTEND=noninteractive apt-get"));
+}
+
+TEST_F(DevScript, SaysWhatToInstallWhereItCannot) {
+    tool("dpkg-query", "case $* in *g++) exit 1 ;; *) echo installed ;; esac");
+    tool("id", "echo 1000");
+    tool("sudo", "exit 1");
+    EXPECT_EQ(run("dev", "build"), 1);
+    EXPECT_THAT(output(), HasSubstr("as root: apt-get install g++"));
+    EXPECT_THAT(calls(), IsEmpty());
+
+    tool("id", "echo 0");
+    tool("apt-get", "exit 100");
+    EXPECT_EQ(run("dev", "build"), 1);
+    EXPECT_THAT(output(), HasSubstr("could not install g++"));
+    EXPECT_THAT(calls(), IsEmpty());
+}
+
+TEST_F(DevScript, StopsWhereConfiguringFails) {
+    tool("cmake", record + "; exit 3");
+    EXPECT_EQ(run("dev", "build"), 3);
+    EXPECT_EQ(calls(), "cmake --preset release\n");
+}
+
+TEST_F(DevScript, CiRunsUnitsThenSanitizersThenTheLongTests) {
+    EXPECT_EQ(run(".ci/run", ""), 0) << output();
+    EXPECT_EQ(calls(),
+              "cmake --preset release\ncmake --build --preset release -j\n"
+              "ctest --preset release -L ^unit$ -j 2 --no-tests=error\n"
+              "cmake --preset asan\ncmake --build --preset asan -j\n"
+              "ctest --preset asan -L ^unit$ -j 2 --no-tests=error\n"
+              "ctest --preset release -LE ^(unit|extra)$\n");
+}
+
+TEST_F(DevScript, TestsCanBeChosen) {
+    EXPECT_EQ(run("dev", "test -R 'A b'"), 0) << output();
+    EXPECT_THAT(calls(), HasSubstr("-j\nctest --preset release -R A b\n"));
+    EXPECT_EQ(run("dev", "test --quick"), 0) << output();
+    EXPECT_THAT(calls(), Not(HasSubstr("asan")));
+    EXPECT_EQ(run("dev", "test --all"), 0) << output();
+    EXPECT_THAT(calls(), HasSubstr("ctest --preset release -LE ^unit$\n"));
+}
+
+TEST_F(DevScript, FailsWithAnyTestAndStillRunsTheOthers) {
+    tool("ctest", record + "; case $* in *asan*) exit 8 ;; esac");
+    EXPECT_EQ(run("dev", "test"), 1);
+    EXPECT_THAT(output(), HasSubstr("failed: sanitizers"));
+    EXPECT_THAT(calls(), HasSubstr("-LE ^(unit|extra)$"));
+}
+
+}  // namespace
+}  // namespace grainfield::house

@@ -1,0 +1,208 @@
+// The page of one run: complete, self-contained, and with the numbers of its files.
+
+#include "triaxial/report/report.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <numbers>
+#include <regex>
+#include <set>
+
+#include "core/errors.hpp"
+#include "tests/report/run_fixture.hpp"
+
+namespace grainfield::triaxial {
+namespace {
+
+using ::testing::AllOf;
+using testing::Field;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::TestFolder;
+
+std::size_t occurrences(const std::string& text, std::string_view what) {
+    std::size_t n = 0;
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++n;
+    return n;
+}
+
+/// The page without its pictures' bytes, which could hold any text.
+std::string without_pictures(const std::string& page) {
+    std::string out;
+    std::size_t at = 0;
+    for (;;) {
+        const std::size_t begin = page.find("base64,", at);
+        if (begin == std::string::npos) return out + page.substr(at);
+        out += page.substr(at, begin - at);
+        at = page.find('"', begin);
+    }
+}
+
+template <class Error>
+std::string message_of(const std::filesystem::path& dir) {
+    try {
+        write_report(dir);
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "nothing was thrown";
+}
+
+TEST(Report, HoldsEveryFigure) {
+    const TestFolder folder;
+    testing::write_run(folder.path(), {.field = Field::stiffness});
+    const auto path = write_report(folder.path());
+    EXPECT_EQ(path, folder.path() / "report.html");
+    const std::string page = testing::read_file(path);
+    EXPECT_EQ(occurrences(page, "<svg"), 5U);
+    EXPECT_EQ(occurrences(page, "src=\"data:image/png;base64,iVBORw0KGgo"), 1U);
+    EXPECT_EQ(occurrences(page, "<figcaption>"), 6U);
+    for (const char* caption :
+         {"secant to half the peak", "Mohr circle at peak", "Lateral stresses",
+          "coloured by normal stiffness", "Grading of the sample", "settled under its own weight"})
+        EXPECT_THAT(page, HasSubstr(caption));
+}
+
+TEST(Report, NeedsNothingFromOutside) {
+    const TestFolder folder;
+    testing::write_run(folder.path(), {});
+    std::string page = without_pictures(testing::read_file(write_report(folder.path())));
+    EXPECT_EQ(occurrences(page, "src="), occurrences(page, "src=\"data:image/png;"));
+    for (const char* name_space : {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"})
+        page = std::regex_replace(page, std::regex(name_space), "");
+    for (const char* outside : {"http:", "https:", "file:", "@import", "<link", "<script"})
+        EXPECT_THAT(page, Not(HasSubstr(outside)));
+    std::smatch match;
+    for (std::string rest = page; std::regex_search(rest, match, std::regex(R"(href=['"]([^'"]))"));
+         rest = match.suffix())
+        EXPECT_EQ(match[1], "#");
+}
+
+TEST(Report, IdsAreUnique) {
+    const TestFolder folder;
+    testing::write_run(folder.path(), {});
+    const std::string page = without_pictures(testing::read_file(write_report(folder.path())));
+    const std::regex id(R"(\sid=['"]([^'"]+)['"])");
+    std::set<std::string> ids;
+    for (std::sregex_iterator it(page.begin(), page.end(), id), end; it != end; ++it)
+        EXPECT_TRUE(ids.insert((*it)[1]).second) << (*it)[1];
+    EXPECT_FALSE(ids.empty());
+}
+
+TEST(Report, ShowsTheNumbersOfTheSummary) {
+    const TestFolder folder;
+    const auto summary = testing::write_run(folder.path(), {.field = Field::stiffness});
+    const std::string page = testing::read_file(write_report(folder.path()));
+    const auto cell = [](const std::string& value) { return "<td>" + value + "</td>"; };
+    const double q = summary["peak_deviator_stress_Pa"], modulus = summary["E50_Pa"];
+    const double phi = summary["friction_angle_rad"];
+    EXPECT_THAT(page, HasSubstr(cell(fmt::format("{:.1f} kPa", 1e-3 * q))));
+    EXPECT_THAT(page, HasSubstr(cell(fmt::format("{:.2f} MPa", 1e-6 * modulus))));
+    EXPECT_THAT(page, HasSubstr(cell(fmt::format("{:.2f}°", phi * 180 / std::numbers::pi))));
+    EXPECT_THAT(page, HasSubstr("0.5000 rad"));
+    for (const char* value :
+         {"1.12 %",   "100.0 kPa",     "171,234",    "0.4003",     "6,480",
+          "6,321",    "32.14 µs",      "0.0930 %",   "0.260 %",    "-0.210 %",
+          "0.000810", "74.50 million", "3 min 03 s", "4 min 01 s", "12.9 s",
+          "avx512",   "mixed",         "0.1.0",      "0.8478",     "<code>9c1f0b7ad2e45513</code>"})
+        EXPECT_THAT(page, HasSubstr(cell(value)));
+    EXPECT_THAT(page, HasSubstr("<dt>unheard_of_key</dt><dd>shown &lt;as it is&gt;</dd>"));
+    EXPECT_THAT(page, HasSubstr("<dt>energy.external_work_J</dt><dd>1840.2</dd>"));
+    EXPECT_THAT(page, HasSubstr("# comment with &lt;angle&gt; &amp; ampersand"));
+}
+
+TEST(Report, FitsTheEnvelopeThroughCompanions) {
+    const TestFolder folder;
+    const std::array companions{folder.path() / "at-200", folder.path() / "at-400"};
+    testing::write_run(folder.path() / "at-100", {});
+    testing::write_run(companions[0], {.confining_stress = 200e3});
+    testing::write_run(companions[1], {.confining_stress = 400e3});
+    const std::string page = testing::read_file(write_report(folder.path() / "at-100", companions));
+    EXPECT_THAT(page, HasSubstr("Mohr circles at peak strength of 3 runs"));
+    EXPECT_THAT(page, HasSubstr("φ = 28.6° (0.5000 rad)"));
+}
+
+TEST(Report, RefusesCompanionsAtTheSameConfiningStress) {
+    const TestFolder folder;
+    testing::write_run(folder.path(), {});
+    const std::array companions{folder.path()};
+    EXPECT_THROW(write_report(folder.path(), companions), InputError);
+}
+
+TEST(Report, DoesWithoutAPacking) {
+    const TestFolder folder;
+    testing::write_run(folder.path(), {.field = Field::friction, .packing = false});
+    const std::string page = testing::read_file(write_report(folder.path()));
+    EXPECT_EQ(occurrences(page, "<svg"), 3U);
+    EXPECT_THAT(page, HasSubstr("holds no <code>packing.json</code>"));
+}
+
+TEST(Report, SaysWhenNoPeakWasFound) {
+    const TestFolder folder;
+    auto summary = testing::write_run(folder.path(), {});
+    summary["peak_found"] = false;
+    testing::write_file(folder.path() / "summary.json", summary.dump());
+    const std::string page = testing::read_file(write_report(folder.path()));
+    EXPECT_THAT(page, AllOf(HasSubstr("No peak was found"), HasSubstr("still hardens"),
+                            Not(HasSubstr(">Peak deviator stress"))));
+}
+
+TEST(Report, NamesAMissingFile) {
+    for (const char* name : {"summary.json", "curve.csv", "config.toml", "state.h5"}) {
+        const TestFolder folder;
+        testing::write_run(folder.path(), {});
+        std::filesystem::remove(folder.path() / name);
+        EXPECT_THAT(message_of<FileError>(folder.path()), HasSubstr(name));
+        EXPECT_FALSE(std::filesystem::exists(folder.path() / "report.html"));
+    }
+}
+
+TEST(Report, NamesACorruptFile) {
+    const TestFolder folder;
+    const auto summary = testing::write_run(folder.path(), {});
+    const auto replaced = [&](const char* name, const std::string& text) {
+        testing::write_run(folder.path(), {});
+        testing::write_file(folder.path() / name, text);
+        return message_of<FileError>(folder.path());
+    };
+    EXPECT_THAT(replaced("summary.json", "{\"particles\": 12,"),
+                AllOf(HasSubstr("summary.json"), HasSubstr("not valid JSON")));
+    auto lacking = summary;
+    lacking.erase("E50_Pa");
+    EXPECT_THAT(replaced("summary.json", lacking.dump()), HasSubstr("key 'E50_Pa' is missing"));
+    lacking["E50_Pa"] = "stiff";
+    EXPECT_THAT(replaced("summary.json", lacking.dump()),
+                HasSubstr("key 'E50_Pa' must be a number, is \"stiff\""));
+    EXPECT_THAT(replaced("config.toml", "[triaxial]\nstrain_rate = \n"),
+                HasSubstr("config.toml:2"));
+    EXPECT_THAT(replaced("packing.json", "[1, 2]"), HasSubstr("packing.json"));
+    EXPECT_THAT(replaced("packing.json", R"({"grading": {"sieve_diameter_m": [0.01, 0.02],
+                         "target_passing_percent": [0], "achieved_passing_percent": [0, 100]}})"),
+                HasSubstr("grading.target_passing_percent"));
+    EXPECT_THAT(replaced("state.h5", "no HDF5 at all"), HasSubstr("state.h5"));
+}
+
+TEST(Report, SaysThatGnuplotIsMissing) {
+    const TestFolder folder;
+    testing::write_run(folder.path(), {});
+    const std::string path = getenv("PATH");
+    setenv("PATH", folder.path().c_str(), 1);
+    const std::string message = message_of<FileError>(folder.path());
+    setenv("PATH", path.c_str(), 1);
+    EXPECT_THAT(message, HasSubstr("gnuplot-nox"));
+}
+
+TEST(Report, KeepsTheOldPageOnFailure) {
+    const TestFolder folder;
+    testing::write_run(folder.path(), {});
+    testing::write_file(folder.path() / "report.html", "old");
+    testing::write_file(folder.path() / "curve.csv", "");
+    EXPECT_THROW(write_report(folder.path()), FileError);
+    EXPECT_EQ(testing::read_file(folder.path() / "report.html"), "old");
+}
+
+}  // namespace
+}  // namespace grainfield::triaxial

@@ -1,0 +1,49 @@
+// Numbers and text as the page prints them.
+
+#include "triaxial/report/text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace grainfield::triaxial::report {
+namespace {
+
+TEST(Text, RoundsToSignificantDigits) {
+    EXPECT_EQ(significant(187.2634), "187.3");
+    EXPECT_EQ(significant(0.0123456, 3), "0.0123");
+    EXPECT_EQ(significant(-5.0, 3), "-5.00");
+    EXPECT_EQ(significant(123456.7), "123457");
+    EXPECT_EQ(significant(9.9996), "10.00");
+    EXPECT_EQ(significant(0), "0");
+    EXPECT_EQ(significant(2.5e-7, 2), "2.5e-07");
+    EXPECT_EQ(significant(std::numeric_limits<double>::quiet_NaN()), "not a number");
+}
+
+TEST(Text, GroupsCounts) {
+    EXPECT_EQ(count(0), "0");
+    EXPECT_EQ(count(999), "999");
+    EXPECT_EQ(count(151632), "151,632");
+    EXPECT_EQ(count(-1234567), "-1,234,567");
+}
+
+TEST(Text, SaysDurations) {
+    EXPECT_EQ(duration(12.94), "12.9 s");
+    EXPECT_EQ(duration(252), "4 min 12 s");
+    EXPECT_EQ(duration(3900), "1 h 05 min");
+}
+
+TEST(Text, EscapesHtml) {
+    EXPECT_EQ(escape("<a href='b'>&\"</a>"), "&lt;a href=&#39;b&#39;&gt;&amp;&quot;&lt;/a&gt;");
+}
+
+TEST(Text, Base64IsThatOfRfc4648) {
+    EXPECT_EQ(base64(""), "");
+    EXPECT_EQ(base64("f"), "Zg==");
+    EXPECT_EQ(base64("fo"), "Zm8=");
+    EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+    EXPECT_EQ(base64(std::string("\xff\x00\xfe", 3)), "/wD+");
+}
+
+}  // namespace
+}  // namespace grainfield::triaxial::report

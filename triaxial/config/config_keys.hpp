@@ -1,0 +1,40 @@
+#pragma once
+// Every key of a config (interface.md, "Config keys"): path, range, unit, variable.
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "core/solver_options.hpp"
+#include "triaxial/config/config.hpp"
+#include "triaxial/config/key_slot.hpp"
+
+namespace grainfield::triaxial {
+
+using Keys = std::vector<ConfigKey>;
+
+inline constexpr std::array precision_names{
+    Named<core::Precision>{core::Precision::double_, "double"},
+    Named<core::Precision>{core::Precision::mixed, "mixed"}};
+inline constexpr std::array isa_names{
+    Named<core::Isa>{core::Isa::automatic, "auto"}, Named<core::Isa>{core::Isa::scalar, "scalar"},
+    Named<core::Isa>{core::Isa::avx2, "avx2"}, Named<core::Isa>{core::Isa::avx512, "avx512"}};
+inline constexpr std::array variable_names{
+    Named<randomfield::Variable>{randomfield::Variable::none, "none"},
+    Named<randomfield::Variable>{randomfield::Variable::friction, "friction"},
+    Named<randomfield::Variable>{randomfield::Variable::stiffness, "stiffness"},
+    Named<randomfield::Variable>{randomfield::Variable::both, "both"}};
+inline constexpr std::array method_names{
+    Named<randomfield::Method>{randomfield::Method::las, "las"},
+    Named<randomfield::Method>{randomfield::Method::cholesky, "cholesky"}};
+
+/// All keys in the order of interface.md. They refer to `config`, which must outlive them.
+Keys config_keys(Config& config);
+
+/// The tables that a scene shares with a config, each with its table's name in the paths.
+void add_keys(Keys& keys, ParticleOptions& particle);
+void add_keys(Keys& keys, core::Damping& damping);
+void add_keys(Keys& keys, core::TimeOptions& time);
+void add_keys(Keys& keys, core::SolverOptions& solver);
+
+}  // namespace grainfield::triaxial

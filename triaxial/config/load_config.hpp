@@ -1,0 +1,19 @@
+#pragma once
+// From a config file and the command line's --set to a checked Config.
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "triaxial/config/config.hpp"
+
+namespace grainfield::triaxial {
+
+/// The paper's case, with the file's values over it and the overrides (`key.path=value`) over
+/// those, later ones winning. Throws InputError (file, line or --set, key, value, what is allowed)
+/// and FileError where the file cannot be read.
+Config load_config(const std::optional<std::filesystem::path>& file,
+                   std::span<const std::string> overrides = {});
+
+}  // namespace grainfield::triaxial

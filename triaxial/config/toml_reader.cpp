@@ -1,0 +1,100 @@
+#include "triaxial/config/toml_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "triaxial/config/nearest_key.hpp"
+#include "triaxial/config/toml_text.hpp"
+
+namespace grainfield::triaxial {
+
+TomlReader::TomlReader(const TomlValue& root, std::string source, std::string prefix)
+    : root_(root), source_(std::move(source)), prefix_(std::move(prefix)) {}
+
+void TomlReader::read(const ConfigKey& key) {
+    const TomlValue* value = take(key.path);
+    if (value != nullptr && !key.slot.set(*value))
+        throw wrong_value(key.path, *value, key.slot.expected);
+}
+
+void TomlReader::require(const ConfigKey& key) {
+    read(key);
+    if (!has(key.path))
+        throw InputError(fmt::format("{}: {}{} is missing: {} is expected",
+                                     prefix_.empty() ? source_ : root_.origin, prefix_, key.path,
+                                     key.slot.expected));
+}
+
+const TomlValue* TomlReader::take(std::string_view path) {
+    know(path);
+    return find(path);
+}
+
+void TomlReader::refuse(std::string_view path, std::string_view why) const {
+    if (const TomlValue* value = find(path))
+        throw InputError(fmt::format("{}: {}{} = {}: {}", value->origin, prefix_, path,
+                                     short_text(*value), why));
+}
+
+const TomlValue* TomlReader::find(std::string_view path) const {
+    const TomlValue* value = &root_;
+    for (std::size_t begin = 0; value != nullptr && begin <= path.size();) {
+        if (!value->is_table()) throw wrong_value(path.substr(0, begin - 1), *value, "a table");
+        const std::size_t end = std::min(path.find('.', begin), path.size());
+        value = value->find(path.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return value;
+}
+
+void TomlReader::know(std::string_view path) {
+    keys_.emplace(path);
+    for (auto dot = path.find('.'); dot != std::string_view::npos; dot = path.find('.', dot + 1))
+        tables_.emplace(path.substr(0, dot));
+}
+
+void TomlReader::finish() const {
+    check_table(root_, "");
+}
+
+void TomlReader::check_table(const TomlValue& table, const std::string& path) const {
+    for (const auto& [key, value] : std::get<TomlValue::Table>(table.data)) {
+        const std::string before = path.empty() ? "" : path + ".";
+        const std::string full = before + key_text(key);
+        if (keys_.contains(full)) continue;
+        if (tables_.contains(full)) {
+            check_table(value, full);
+            continue;
+        }
+        std::set<std::string> known = keys_;
+        known.insert(tables_.begin(), tables_.end());
+        const auto nearest = nearest_key(before + key, known);
+        throw InputError(fmt::format(
+            "{}: {}{} is not a known key{}", value.origin, prefix_, full,
+            nearest ? fmt::format("; did you mean {}{}?", prefix_, *nearest) : std::string()));
+    }
+}
+
+InputError TomlReader::located(const InputError& error) const {
+    const std::string_view what = error.what();
+    const std::string name(what.substr(0, what.find_first_of(" [:=")));
+    std::string place = source_;
+    if (keys_.contains(name)) {
+        const std::string table = name.substr(0, name.rfind('.') + 1);
+        // A value at odds with a default: then the key to blame is another one of that table.
+        for (const std::string& key : keys_)
+            if (const TomlValue* value = key.starts_with(table) ? find(key) : nullptr)
+                place = value->origin;
+        if (const TomlValue* value = find(name)) place = value->origin;
+    }
+    return InputError(place.empty() ? std::string(what) : fmt::format("{}: {}", place, what));
+}
+
+InputError TomlReader::wrong_value(std::string_view path, const TomlValue& value,
+                                   std::string_view expected) const {
+    return InputError(fmt::format("{}: {}{} = {}: {} is expected", value.origin, prefix_, path,
+                                  short_text(value), expected));
+}
+
+}  // namespace grainfield::triaxial

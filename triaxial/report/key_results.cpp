@@ -1,0 +1,170 @@
+#include "triaxial/report/key_results.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "triaxial/report/text.hpp"
+
+namespace grainfield::triaxial::report {
+namespace {
+
+std::string degrees(double radians) {
+    return significant(radians * 180 / std::numbers::pi);
+}
+std::string percent(double share, int digits = 3) {
+    return significant(100 * share, digits) + " %";
+}
+
+/// A table that skips what the file does not hold.
+class Builder {
+  public:
+    Builder(std::string title, const JsonFile* file) : table_{std::move(title), {}}, file_(file) {}
+
+    void row(std::string name, std::string value, std::string note = {}) {
+        table_.rows.push_back({std::move(name), std::move(value), std::move(note)});
+    }
+    template <class Format>
+    void number(std::string_view key, std::string name, Format format, std::string note = {}) {
+        if (file_ == nullptr) return;
+        if (const auto value = file_->optional_number(key))
+            row(std::move(name), format(*value), std::move(note));
+    }
+    void text(std::string_view key, std::string name) {
+        if (const auto value = file_->optional_text(key)) row(std::move(name), escape(*value));
+    }
+    Table take() { return std::move(table_); }
+
+  private:
+    Table table_;
+    const JsonFile* file_;
+};
+
+std::string plain(double value) {
+    return significant(value);
+}
+
+/// How far the flow is from quasi-static, in the usual bounds of the inertial number.
+std::string inertia_in_words(double number) {
+    if (number < 1e-4) return "quasi-static";
+    if (number < 1e-3) return "quasi-static to a good approximation";
+    if (number < 1e-2) return "nearly quasi-static: a slower test gives a somewhat lower peak";
+    return "not quasi-static: inertia adds to the strength";
+}
+
+Table results_table(const RunFolder& run) {
+    const KeyResults& r = run.results;
+    // physics.md, "Loading rate, step and mass scaling": 1 to 2 % of a peak is chaos.
+    const std::string chaos = "± 1–2 % by chaos in a single realization (project’s measurements)";
+    Builder b("Results", &run.summary);
+    b.row(r.peak_found ? "Peak deviator stress <i>q</i>" : "Largest deviator stress <i>q</i>",
+          significant(1e-3 * r.peak_deviator_stress) + " kPa",
+          r.peak_found ? chaos : "the run ended while <i>q</i> still rose; " + chaos);
+    b.row("Axial strain there", percent(r.axial_strain_at_peak));
+    b.row("Secant modulus <i>E</i><sub>50</sub>", significant(1e-6 * r.E50) + " MPa");
+    b.row("Macroscopic friction angle φ", degrees(r.friction_angle) + "°",
+          significant(r.friction_angle) + " rad");
+    b.row("Confining stress σ<sub>3</sub>", significant(1e-3 * r.confining_stress) + " kPa");
+    b.text("end_reason", "The run ended because");
+    return b.take();
+}
+
+Table sample_table(const RunFolder& run) {
+    Builder b("Sample", &run.summary);
+    b.number("particles", "Spheres", count);
+    b.number("contacts", "Contacts", count, "at the end of the test");
+    b.number("porosity", "Porosity before compression", plain);
+    return b.take();
+}
+
+Table packing_table(const RunFolder& run) {
+    Builder p("As packed", run.packing ? &*run.packing : nullptr);
+    p.number("coordination_number", "Coordination number", plain);
+    p.number("mechanical_coordination_number", "the same without rattlers", plain);
+    p.number(
+        "rattler_fraction", "Rattlers (fewer than four contacts)",
+        [](double v) { return percent(v); }, "by number");
+    p.number("rattler_volume_fraction", "Rattlers by volume", [](double v) { return percent(v); });
+    p.number("fabric_anisotropy", "Anisotropy of contact normals", plain);
+    p.number("K0", "Earth pressure at rest <i>K</i><sub>0</sub>", plain);
+    return p.take();
+}
+
+Table accuracy_table(const RunFolder& run) {
+    const ServoError recorded = servo_error(run.curve, run.results.confining_stress);
+    const auto rms = run.summary.optional_number("lateral_stress_rms_error");
+    const auto max = run.summary.optional_number("lateral_stress_max_error");
+    const std::string from_curve = "; from the records of curve.csv";
+    Builder b("Numerical accuracy", &run.summary);
+    b.row("Lateral stress off its target, RMS", percent(rms.value_or(recorded.rms)),
+          "aim: 0.5 %" + (rms ? "" : from_curve));
+    b.row("the same, largest", percent(max.value_or(recorded.max)),
+          "after 0.1 % of strain; aim: 1 %" + (max ? "" : from_curve));
+    b.number(
+        "first_q_minimum_ratio", "Drop of <i>q</i> when shear begins",
+        [](double v) { return percent(v); }, "over σ<sub>3</sub>; aim: not below −1 %");
+    if (const auto inertial = run.summary.optional_number("inertial_number"))
+        b.row("Inertial number", significant(*inertial, 3), inertia_in_words(*inertial));
+    b.number("time_step_s", "Time step", [](double v) { return significant(1e6 * v) + " µs"; });
+    b.number("steps", "Steps", count);
+    b.text("precision", "Precision");
+    return b.take();
+}
+
+Table field_table(const RunFolder& run) {
+    Builder b("Random field", &run.summary);
+    b.number("field.gamma", "Variance of a block’s average γ", plain, "1 is that of a point");
+    b.number("field.mean_ratio_cells", "Mean of the blocks over μ", plain, "this realization");
+    b.number("field.mean_ratio_expected", "the same, expected", plain,
+             "local averages lower it (lognormal stiffness)");
+    b.number("field.covariance_error", "Largest covariance error", plain, "in units of γ");
+    if (run.summary.has("field.correlation_length")) {
+        std::string lengths;
+        for (const double theta : run.summary.numbers("field.correlation_length"))
+            lengths += (lengths.empty() ? "" : ", ") + significant(theta, 3);
+        b.row("Correlation lengths θ", lengths + " m");
+    }
+    return b.take();
+}
+
+Table run_table(const RunFolder& run) {
+    Builder b("Run", &run.summary);
+    for (const auto& [key, value] : run.summary.flattened()) {
+        if (!key.starts_with("wall_seconds.")) continue;
+        const std::string stage = key.substr(std::string_view("wall_seconds.").size());
+        b.number(key, "Wall time, " + escape(stage), duration);
+    }
+    b.number("particle_steps_per_second", "Sphere-steps per second",
+             [](double v) { return significant(1e-6 * v) + " million"; });
+    b.text("threads", "Threads");
+    b.text("isa", "Instruction set");
+    b.text("version", "Grainfield");
+    if (const auto hash = run.summary.optional_text("state_hash"))
+        b.row("Hash of the final state", "<code>" + escape(*hash) + "</code>");
+    return b.take();
+}
+
+}  // namespace
+
+std::vector<Table> key_tables(const RunFolder& run) {
+    std::vector<Table> tables{results_table(run), accuracy_table(run)};
+    if (Table field = field_table(run); !field.rows.empty()) tables.push_back(std::move(field));
+    tables.push_back(sample_table(run));
+    if (Table packing = packing_table(run); !packing.rows.empty())
+        tables.push_back(std::move(packing));
+    tables.push_back(run_table(run));
+    return tables;
+}
+
+std::string outcome(const RunFolder& run) {
+    const KeyResults& r = run.results;
+    return fmt::format(
+        "At {} kPa confining stress the sample {} <b>{} kPa</b> deviator stress at {} axial "
+        "strain; <i>E</i><sub>50</sub> is <b>{} MPa</b> and the friction angle <b>{}°</b>.",
+        significant(1e-3 * r.confining_stress),
+        r.peak_found ? "peaks at" : "still hardens when the run ends, having reached",
+        significant(1e-3 * r.peak_deviator_stress), percent(r.axial_strain_at_peak),
+        significant(1e-6 * r.E50), degrees(r.friction_angle));
+}
+
+}  // namespace grainfield::triaxial::report

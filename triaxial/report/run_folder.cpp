@@ -1,0 +1,87 @@
+#include "triaxial/report/run_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <toml++/toml.h>
+
+#include "core/errors.hpp"
+#include "core/files/sphere_file.hpp"
+#include "core/files/text_file.hpp"
+
+namespace grainfield::triaxial::report {
+namespace {
+
+double positive(const JsonFile& summary, std::string_view key) {
+    const double value = summary.number(key);
+    if (!(value > 0))
+        throw FileError(fmt::format("{}: key '{}' must be positive, is {}", summary.path().string(),
+                                    key, value));
+    return value;
+}
+
+KeyResults key_results(const JsonFile& summary) {
+    KeyResults results;
+    results.confining_stress = positive(summary, "confining_stress_Pa");
+    results.peak_deviator_stress = positive(summary, "peak_deviator_stress_Pa");
+    results.axial_strain_at_peak = positive(summary, "axial_strain_at_peak");
+    results.E50 = positive(summary, "E50_Pa");
+    results.friction_angle = positive(summary, "friction_angle_rad");
+    results.peak_found = summary.optional_flag("peak_found").value_or(true);
+    return results;
+}
+
+std::string read_config(const std::filesystem::path& path) {
+    std::string text = core::read_whole_file(path);
+    try {
+        (void)toml::parse(text);
+    } catch (const toml::parse_error& e) {
+        throw FileError(
+            fmt::format("{}:{}: {}", path.string(), e.source().begin.line, e.description()));
+    }
+    return text;
+}
+
+}  // namespace
+
+RunFolder read_run_folder(const std::filesystem::path& dir) {
+    if (!std::filesystem::is_directory(dir))
+        throw FileError(fmt::format("{}: no such folder", dir.string()));
+    RunFolder run{.path = dir,
+                  .summary = JsonFile(dir / "summary.json"),
+                  .results = {},
+                  .curve = read_curve(dir / "curve.csv"),
+                  .config = read_config(dir / "config.toml"),
+                  .packing = std::nullopt,
+                  .spheres = {},
+                  .box = {}};
+    run.results = key_results(run.summary);
+    if (std::filesystem::exists(dir / "packing.json")) run.packing.emplace(dir / "packing.json");
+
+    const auto state = dir / "state.h5";
+    if (!std::filesystem::exists(state))
+        throw FileError(fmt::format("{}: no such file", state.string()));
+    auto file = core::read_spheres(state);
+    if (file.spheres.size() == 0)
+        throw FileError(fmt::format("{}: holds no spheres", state.string()));
+    run.spheres = std::move(file.spheres);
+    run.box = core::bounding_box(run.spheres);
+    return run;
+}
+
+MohrCircle read_mohr_circle(const std::filesystem::path& dir) {
+    const JsonFile summary(dir / "summary.json");
+    const KeyResults results = key_results(summary);
+    auto name = dir.filename().empty() ? dir.parent_path().filename() : dir.filename();
+    return {results.confining_stress, results.peak_deviator_stress, name.string()};
+}
+
+std::string case_in_words(const JsonFile& summary) {
+    const std::string name = summary.optional_text("case").value_or("");
+    if (name == "deterministic" || name == "none") return "uniform properties";
+    if (name == "friction") return "random friction angle (case A)";
+    if (name == "stiffness") return "random stiffness (case B)";
+    if (name == "both") return "random friction angle and stiffness";
+    return name;
+}
+
+}  // namespace grainfield::triaxial::report
