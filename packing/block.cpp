@@ -45,10 +45,10 @@ class BlockPacker {
         simulation_.set_wall_point(lid, Vec3(0, lid_height, 0));
     }
 
-    /// Runs under plain gravity until at rest; the lid stays where it is.
-    void settle(const char* stage) {
+    /// Runs under gravity along -y (or +y: reversed) until at rest; the lid stays where it is.
+    void settle(const char* stage, bool reversed = false) {
         driver_.monitor().begin(stage);
-        simulation_.set_gravity(gravity());
+        simulation_.set_gravity(reversed ? Vec3(-gravity()) : gravity());
         simulation_.set_wall_velocity(lid, Vec3::Zero());
         const double deadline = simulation_.time() + 30.0;
         double ratio = 1;
@@ -131,6 +131,18 @@ class BlockPacker {
     std::uint64_t bouts_ = 0;
 };
 
+/// The spheres without the little motion that is left; all centres must be inside.
+core::ParticleStore at_rest(core::ParticleStore spheres, const Vec3& size) {
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+        spheres.velocity.set(i, Vec3::Zero());
+        spheres.spin.set(i, Vec3::Zero());
+        const Vec3 x = spheres.position[i];
+        if ((x.array() < 0).any() || (x.array() > size.array()).any())
+            throw SimulationError(fmt::format("sphere {} of the block is outside", i));
+    }
+    return spheres;
+}
+
 }  // namespace
 
 double bulk_unit_weight(const Material& material, double porosity, double gravity) {
@@ -199,15 +211,10 @@ Block pack_block(const PackingOptions& options, const Grading& grading, const Ma
     }
     block.compaction_friction_angle = friction;
     block.porosity = packer.porosity(options.block.y());
+    block.spheres = at_rest(simulation.spheres(), options.block);
+    packer.settle("settling the block on its head", true);
+    block.hanging = at_rest(simulation.spheres(), options.block);
     block.steps = simulation.steps();
-    block.spheres = simulation.spheres();
-    for (std::size_t i = 0; i < n; ++i) {
-        block.spheres.velocity.set(i, Vec3::Zero());
-        block.spheres.spin.set(i, Vec3::Zero());
-        const Vec3 x = block.spheres.position[i];
-        if ((x.array() < 0).any() || (x.array() > options.block.array()).any())
-            throw SimulationError(fmt::format("sphere {} of the block is outside", i));
-    }
     return block;
 }
 

@@ -28,6 +28,7 @@ double bulk_unit_weight(const Material& material, double porosity, double gravit
 
 struct Block {
     core::ParticleStore spheres;   ///< at rest in [0, b_x] x [0, b_y] x [0, b_z]
+    core::ParticleStore hanging;   ///< the same spheres at rest under gravity reversed
     GradingDraw grading;
     double porosity = 0;                   ///< [-]
     double settled_height = 0;             ///< of the bed before compaction [m]

@@ -30,8 +30,8 @@ std::uint32_t morton(const Vec3& unit) {
 
 }  // namespace
 
-core::ParticleStore flip(const core::ParticleStore& block, const Vec3& size,
-                         const std::array<std::int32_t, 3>& blocks) {
+core::ParticleStore flip(const core::ParticleStore& block, const core::ParticleStore& hanging,
+                         const Vec3& size, const std::array<std::int32_t, 3>& blocks) {
     const std::size_t n = block.size();
     core::ParticleStore sample;
     sample.resize(n * static_cast<std::size_t>(blocks[0]) * static_cast<std::size_t>(blocks[1]) *
@@ -41,9 +41,10 @@ core::ParticleStore flip(const core::ParticleStore& block, const Vec3& size,
         for (std::int32_t by = 0; by < blocks[1]; ++by)
             for (std::int32_t bx = 0; bx < blocks[0]; ++bx) {
                 const core::BlockIndex index{bx, by, bz};
+                const core::ParticleStore& original = by % 2 ? hanging : block;
                 for (std::size_t i = 0; i < n; ++i, ++k) {
-                    copy_sphere(block, i, sample, k);
-                    Vec3 x = block.position[i];
+                    copy_sphere(original, i, sample, k);
+                    Vec3 x = original.position[i];
                     for (int a = 0; a < 3; ++a) {
                         const std::int32_t b = index[static_cast<std::size_t>(a)];
                         if (b % 2) x[a] = size[a] - x[a];  // odd blocks are mirror images
@@ -56,16 +57,20 @@ core::ParticleStore flip(const core::ParticleStore& block, const Vec3& size,
     return sample;
 }
 
-core::ParticleStore sort_in_space(const core::ParticleStore& block, const Vec3& size) {
+std::vector<std::size_t> order_in_space(const core::ParticleStore& block, const Vec3& size) {
     std::vector<std::size_t> order(block.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return morton(block.position[a].cwiseQuotient(size)) < morton(block.position[b].cwiseQuotient(size));
     });
-    core::ParticleStore sorted;
-    sorted.resize(block.size());
-    for (std::size_t k = 0; k < order.size(); ++k) copy_sphere(block, order[k], sorted, k);
-    return sorted;
+    return order;
+}
+
+core::ParticleStore reordered(const core::ParticleStore& spheres, const std::vector<std::size_t>& order) {
+    core::ParticleStore result;
+    result.resize(order.size());
+    for (std::size_t k = 0; k < order.size(); ++k) copy_sphere(spheres, order[k], result, k);
+    return result;
 }
 
 }  // namespace grainfield::packing

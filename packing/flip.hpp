@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "core/particle_store.hpp"
 
@@ -13,11 +14,19 @@ namespace grainfield::packing {
 /// (i fastest, then j, then k) in the order they have in the block, and carry (i, j, k). A sphere
 /// that touched a wall of the block with overlap d touches its image across that wall, each
 /// overlapping the mirror plane by d.
-core::ParticleStore flip(const core::ParticleStore& block, const Vec3& size,
-                         const std::array<std::int32_t, 3>& blocks);
+///
+/// The rows of odd j stand on their heads. `hanging` is the same block (sphere by sphere) as it is
+/// mirrored into them; it may have been settled under gravity reversed, so that loose spheres do
+/// not have to fall across their pores in every clone.
+core::ParticleStore flip(const core::ParticleStore& block, const core::ParticleStore& hanging,
+                         const Vec3& size, const std::array<std::int32_t, 3>& blocks);
 
-/// Orders the spheres of a block along a Z-order curve, so that neighbours in space are neighbours
-/// in memory.
-core::ParticleStore sort_in_space(const core::ParticleStore& block, const Vec3& size);
+/// Order of the spheres of a block along a Z-order curve, so that neighbours in space are
+/// neighbours in memory.
+std::vector<std::size_t> order_in_space(const core::ParticleStore& block, const Vec3& size);
+
+/// The spheres in the order given: the k-th of the result is the order[k]-th.
+core::ParticleStore reordered(const core::ParticleStore& spheres,
+                              const std::vector<std::size_t>& order);
 
 }  // namespace grainfield::packing

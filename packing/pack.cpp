@@ -44,13 +44,15 @@ Packing pack(const PackingOptions& options, const Grading& grading, const Materi
     packing.options = options;
     packing.grading = grading;
     packing.block = pack_block(options, grading, material, monitor);
-    packing.block.spheres = sort_in_space(packing.block.spheres, options.block);
+    const std::vector<std::size_t> order = order_in_space(packing.block.spheres, options.block);
+    packing.block.spheres = reordered(packing.block.spheres, order);
+    packing.block.hanging = reordered(packing.block.hanging, order);
     packing.block_seconds = watch.lap();
 
     const Vec3 size(options.block.x() * options.blocks[0], options.block.y() * options.blocks[1],
                     options.block.z() * options.blocks[2]);
     core::Scene scene;
-    scene.spheres = flip(packing.block.spheres, options.block, options.blocks);
+    scene.spheres = flip(packing.block.spheres, packing.block.hanging, options.block, options.blocks);
     scene.stiffness_ratio = material.stiffness_ratio;
     scene.damping = material.damping;
     scene.walls = core::box_walls({Vec3::Zero(), size}, box_wall(material));

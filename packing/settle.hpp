@@ -5,12 +5,11 @@
 
 namespace grainfield::packing {
 
-/// Gravity is switched on over one period of the sample's slowest vertical oscillation, so that it
-/// leaves little motion behind, and the rest is taken out by the local damping and by stopping all
-/// motion whenever the kinetic energy passes a maximum (dynamic relaxation). Ends when the
-/// unbalanced force ratio is below 1e-3, the floor carries the weight within 0.2 % and the motion
-/// is negligible. Walls: x low, x high, y low, [y high,] z low, z high or any box without a lid.
-/// floor_wall is the index of the wall below; gravity g [m/s2] along -y.
+/// Runs with the scene's damping until the unbalanced force ratio is below 1e-2 (loose spheres that
+/// still roll or bounce in their pores included), the floor carries the weight within 0.5 % and the
+/// kinetic energy is negligible; what little motion is left is then stopped. `floor_wall` is the
+/// index of the wall below, gravity g [m/s2] acts along -y, `height` [m] is the sample's.
+/// Throws SimulationError if the sample does not come to rest.
 void settle_under_gravity(core::Driver& driver, std::size_t floor_wall, double gravity, double height);
 
 }  // namespace grainfield::packing

@@ -1,0 +1,150 @@
+// The highest frequency of a network: the estimate against the dense eigenvalue problem, and
+// against the exact values of infinite lattices.
+
+#include "core/frequency.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/step_control.hpp"
+#include "tests/core/test_scenes.hpp"
+
+namespace grainfield::core {
+namespace {
+
+/// Adds K_n (n.u)^2 + K_s |slip|^2 of a contact to the stiffness; columns of the bodies in `b`.
+void add_contact(Eigen::MatrixXd& stiffness, const Eigen::Matrix<double, 3, Eigen::Dynamic>& b,
+                 const Vec3& normal, double kn, double ks) {
+    const Eigen::Matrix3d along = normal * normal.transpose();
+    const Eigen::Matrix3d spring = kn * along + ks * (Eigen::Matrix3d::Identity() - along);
+    stiffness += b.transpose() * spring * b;
+}
+
+Eigen::Matrix3d cross_matrix(const Vec3& v) {
+    Eigen::Matrix3d m;
+    m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+    return m;
+}
+
+/// omega_max of all overlapping pairs and walls by the dense generalised eigenvalue problem.
+double dense_frequency(const Scene& scene) {
+    const ParticleStore& s = scene.spheres;
+    const auto n = static_cast<Eigen::Index>(s.size());
+    Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(6 * n, 6 * n);
+    Eigen::VectorXd mass(6 * n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        mass.segment<3>(6 * i).setConstant(s.mass[i]);
+        mass.segment<3>(6 * i + 3).setConstant(0.4 * s.mass[i] * s.radius[i] * s.radius[i]);
+        // Slip of the far body at the contact: u_j - u_i - (r_i w_i + r_j w_j) x n.
+        for (Eigen::Index j = i + 1; j < n; ++j) {
+            const Vec3 branch = s.position[j] - s.position[i];
+            if (branch.norm() >= s.radius[i] + s.radius[j]) continue;
+            const Vec3 normal = branch.normalized();
+            Eigen::Matrix<double, 3, Eigen::Dynamic> b = Eigen::MatrixXd::Zero(3, 6 * n);
+            b.block<3, 3>(0, 6 * i) = -Eigen::Matrix3d::Identity();
+            b.block<3, 3>(0, 6 * j) = Eigen::Matrix3d::Identity();
+            b.block<3, 3>(0, 6 * i + 3) = s.radius[i] * cross_matrix(normal);
+            b.block<3, 3>(0, 6 * j + 3) = s.radius[j] * cross_matrix(normal);
+            const double kn = 0.5 * (s.radius[i] + s.radius[j]) * s.normal_stiffness[i] *
+                              s.normal_stiffness[j] /
+                              (s.normal_stiffness[i] + s.normal_stiffness[j]);
+            add_contact(stiffness, b, normal, kn, scene.stiffness_ratio * kn);
+        }
+        for (const Wall& wall : scene.walls) {
+            if (wall.normal.dot(s.position[i] - wall.point) >= s.radius[i]) continue;
+            Eigen::Matrix<double, 3, Eigen::Dynamic> b = Eigen::MatrixXd::Zero(3, 6 * n);
+            b.block<3, 3>(0, 6 * i) = -Eigen::Matrix3d::Identity();
+            b.block<3, 3>(0, 6 * i + 3) = s.radius[i] * cross_matrix(-wall.normal);
+            const double ka = s.normal_stiffness[i], kb = wall.normal_stiffness;
+            const double sa = scene.stiffness_ratio * ka, sb = wall.stiffness_ratio * kb;
+            add_contact(stiffness, b, wall.normal, s.radius[i] * ka * kb / (ka + kb),
+                        s.radius[i] * sa * sb / (sa + sb));
+        }
+    }
+    const Eigen::VectorXd scale = mass.array().sqrt().inverse();
+    const Eigen::MatrixXd scaled = scale.asDiagonal() * stiffness * scale.asDiagonal();
+    return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)
+                         .eigenvalues()
+                         .maxCoeff());
+}
+
+/// Overlapping spheres at random, of two stiffnesses, in a box whose walls touch some.
+Scene random_packing(std::uint64_t realization, double lambda, double contrast) {
+    std::vector<Ball> balls;
+    for (std::uint64_t i = 0; i < 50; ++i)
+        balls.push_back({.x = 0.15 * random_vec(i, realization),
+                         .radius = test_radius * (1 + 0.5 * random_vec(i, 50 + realization).x()),
+                         .stiffness = i % 2 == 0 ? test_stiffness : contrast * test_stiffness});
+    Scene scene = scene_of(balls, 0.5);
+    scene.stiffness_ratio = lambda;
+    scene.walls = box_walls({Vec3::Constant(-0.17), Vec3::Constant(0.17)},
+                            plane(Vec3::Zero(), Vec3::UnitX(), 0.5, 0.3));
+    return scene;
+}
+
+double estimate(const Scene& scene, const kernels::KernelTable& table) {
+    Simulation sim(scene, table);
+    sim.compute_forces();
+    return FrequencyEstimator().estimate(sim);
+}
+
+using Frequency = KernelTest;
+
+TEST_P(Frequency, AgreesWithTheDenseEigenvalue) {
+    for (double lambda : {0.1, 0.5, 1.0})
+        for (double contrast : {1.0, 100.0})
+            for (std::uint64_t k = 0; k < 5; ++k) {
+                const Scene scene = random_packing(k, lambda, contrast);
+                const double ratio = estimate(scene, table()) / dense_frequency(scene);
+                // Below 1 the step is too long by that; safety 0.8 leaves a quarter.
+                EXPECT_GE(ratio, 0.995) << lambda << " " << contrast << " " << k;
+                EXPECT_LE(ratio, 1.05) << lambda << " " << contrast << " " << k;
+            }
+}
+
+TEST_P(Frequency, IsZeroWithoutContactsAndIsolatedFrequencyIsDefined) {
+    Simulation sim(scene_of({Ball{}, Ball{.x = Vec3(1, 0, 0), .radius = 0.01}}), table());
+    sim.compute_forces();
+    EXPECT_EQ(FrequencyEstimator().estimate(sim), 0.0);
+    // Two contacts on opposite sides of the lightest sphere: 4 K_n/m.
+    const double expected = std::sqrt(4 * 0.01 * test_stiffness / 2 / sphere_mass(0.01));
+    EXPECT_NEAR(isolated_frequency(sim), expected, 1e-12 * expected);
+}
+
+/// FCC block of `cells`^3 cubic cells, just touching more than not.
+Scene fcc_block(int cells, double lambda) {
+    const double a = 2 * std::sqrt(2.0) * test_radius * (1 - 1e-6);
+    std::vector<Ball> balls;
+    for (int i = 0; i < 2 * cells; ++i)
+        for (int j = 0; j < 2 * cells; ++j)
+            for (int k = 0; k < 2 * cells; ++k)
+                if ((i + j + k) % 2 == 0) balls.push_back({.x = 0.5 * a * Vec3(i, j, k)});
+    Scene scene = scene_of(balls, 0.5);
+    scene.stiffness_ratio = lambda;
+    return scene;
+}
+
+TEST_P(Frequency, FreeFccBlocksApproachTheInfiniteLatticeFromBelow) {
+    const double kn = 0.5 * test_radius * test_stiffness, m = sphere_mass(test_radius);
+    for (double lambda : {0.1, 0.8}) {
+        const double bound = std::sqrt(m / kn) * std::min(1 / std::sqrt(2 * (1 + lambda)),
+                                                          0.3162277660168379 / std::sqrt(lambda));
+        double last = 0;
+        for (int cells : {2, 4, 8}) {
+            const double omega = estimate(fcc_block(cells, lambda), table());
+            EXPECT_GT(2 / omega, bound * (1 - 1e-3)) << cells;
+            EXPECT_GT(omega, last * 0.999);
+            last = omega;
+        }
+        EXPECT_NEAR(2 / last, bound, 0.03 * bound) << lambda;
+    }
+}
+
+GRAINFIELD_FOR_ALL_KERNELS(Frequency);
+
+}  // namespace
+}  // namespace grainfield::core

@@ -1,0 +1,131 @@
+// A contact turned as a rigid body keeps its force; a cycle of motion leaves none behind.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+#include <vector>
+
+#include "tests/kernels/prescribed_pair.hpp"
+
+namespace grainfield::kernels {
+namespace {
+
+constexpr double ri = 0.05, rj = 0.02;
+constexpr double plenty = 1e6;  // friction that never slips [-]
+
+using Objectivity = KernelTest;
+using Ratcheting = KernelTest;
+using PairForce = KernelTest;
+
+TEST_P(Objectivity, RigidTurnsKeepTheShearForce) {
+    const Vec3 xi(0.3, -0.1, 0.2);
+    const Vec3 normal = Vec3(1, 2, 2) / 3.0;
+    const Vec3 xj = xi + 0.99 * (ri + rj) * normal;
+    const Vec3 shear0 = 7.0 * normal.cross(Vec3::UnitX()).normalized();
+    // Across the normal, about it, and in between.
+    for (const Vec3& direction : {Vec3(0, 1, -1), normal, Vec3(1, -0.3, 0.5)}) {
+        const Vec3 axis = direction.normalized();
+        PrescribedPair pair(table(), ri, rj, xi, xj, plenty);
+        pair.set_shear(shear0);
+        const double angle = 2 * std::numbers::pi / 100;
+        double worst = 0;
+        for (int k = 1; k <= 100 * 1000; ++k) {
+            const Eigen::Matrix3d turn = Eigen::AngleAxisd((k % 100) * angle, axis).matrix();
+            pair.move(turn * xi, turn * xj, angle * axis, angle * axis);
+            worst = std::max(worst, (pair.shear() - turn * shear0).norm() / shear0.norm());
+        }
+        // Each step rounds position differences of 1e-17 m against a spring of 1e-4 m and turns
+        // the force with a few eps; errors add up at most linearly over 1e5 steps.
+        EXPECT_LT(worst, std::max(1e-10, roundoff(1e5))) << "axis " << axis.transpose();
+    }
+}
+
+TEST_P(Objectivity, FewLargeStepsAreAsExactAsManySmallOnes) {
+    const Vec3 normal = Vec3(1, 2, 2) / 3.0;
+    const Vec3 axis = Vec3(1, -0.3, 0.5).normalized();
+    const Vec3 xj = 0.99 * (ri + rj) * normal;
+    const Vec3 shear0 = 7.0 * normal.cross(Vec3::UnitX()).normalized();
+    for (int steps : {3, 7, 1000}) {
+        PrescribedPair pair(table(), ri, rj, Vec3::Zero(), xj, plenty);
+        pair.set_shear(shear0);
+        for (int k = 1; k <= steps; ++k) {
+            const double angle = 2 * std::numbers::pi / steps;
+            const Eigen::Matrix3d turn = Eigen::AngleAxisd(k * angle, axis).matrix();
+            pair.move(Vec3::Zero(), turn * xj, angle * axis, angle * axis);
+        }
+        EXPECT_LT((pair.shear() - shear0).norm() / shear0.norm(), roundoff(2e4)) << steps;
+    }
+}
+
+/// A closed cycle: the pair rolls and slides along a path at one overlap, is pushed, goes the same
+/// path backwards at another overlap, and is pulled.
+double left_behind(const KernelTable& table, double overlap_out, double overlap_back, bool orbit) {
+    const int steps = 40;
+    std::vector<Vec3> normal{Vec3(1, 2, 2) / 3.0}, spin_i, spin_j;
+    for (int k = 0; k < steps; ++k) {
+        spin_i.emplace_back(0.003 + 1e-4 * k, -0.002, 0.004);
+        spin_j.emplace_back(-0.001, 0.003, 0.005 - 1e-4 * k);
+        const Vec3 turn(0.002, orbit ? -0.006 : 0.0, orbit ? 0.001 * k / steps : 0.0);
+        normal.push_back(orbit ? Vec3((normal[k] + turn).normalized()) : normal[0]);
+    }
+    const double reach = ri + rj;
+    const Vec3 at_rest = Vec3::Zero();
+    PrescribedPair pair(table, ri, rj, at_rest, (reach - overlap_out) * normal[0], plenty);
+    double peak = 0;
+    for (int k = 0; k < steps; ++k) {
+        pair.move(at_rest, (reach - overlap_out) * normal[k + 1], spin_i[k], spin_j[k]);
+        peak = std::max(peak, pair.shear().norm());
+    }
+    pair.move(at_rest, (reach - overlap_back) * normal[steps], at_rest, at_rest);
+    for (int k = steps - 1; k >= 0; --k)
+        pair.move(at_rest, (reach - overlap_back) * normal[k], -spin_i[k], -spin_j[k]);
+    pair.move(at_rest, (reach - overlap_out) * normal[0], at_rest, at_rest);
+    EXPECT_GT(peak, 1.0);  // [N]
+    return pair.shear().norm() / peak;
+}
+
+TEST_P(Ratcheting, PushRotatePullRotateBackLeavesNoForce) {
+    // 80 steps, each rounding a displacement against a peak of some 1e-3 m.
+    for (double back : {1e-5, 2e-3, 8e-3}) {
+        EXPECT_LT(left_behind(table(), 1e-3, back, false), roundoff(4500)) << back;
+        EXPECT_LT(left_behind(table(), 1e-3, back, true), roundoff(4500)) << back;
+    }
+}
+
+TEST_P(PairForce, ForcesAndMomentsBalance) {
+    const Vec3 xj = 0.93 * (ri + rj) * Vec3(1, 2, 2) / 3.0;
+    PrescribedPair pair(table(), ri, rj, Vec3::Zero(), xj, 0.4);
+    pair.move(Vec3(1e-3, 2e-3, 0), xj, Vec3(0.1, 0.2, -0.3), Vec3(0.5, -0.1, 0.2));
+    const Vec3 branch = xj - Vec3(1e-3, 2e-3, 0);
+    // Both moments and the couple of the forces on the centres add up to nothing.
+    const Vec3 couple = (ri + rj) * pair.moment_per_radius() - branch.cross(pair.force());
+    EXPECT_GT(pair.shear().norm(), 1.0);
+    EXPECT_LT(couple.norm(), roundoff(16) * branch.norm() * pair.force().norm());
+}
+
+TEST_P(PairForce, OpeningForgetsTheShearForce) {
+    const Vec3 near(0.99 * (ri + rj), 0, 0), far(1.01 * (ri + rj), 0, 0);
+    PrescribedPair pair(table(), ri, rj, Vec3::Zero(), near, plenty);
+    pair.move(Vec3::Zero(), near, Vec3(0, 0, 1e-3), Vec3::Zero());
+    EXPECT_GT(pair.shear().norm(), 0.0);
+    pair.move(Vec3::Zero(), far, Vec3::Zero(), Vec3::Zero());
+    EXPECT_FALSE(pair.touching());
+    EXPECT_EQ(pair.shear().norm(), 0.0);
+}
+
+TEST_P(PairForce, GearsTurnWithoutForce) {
+    // r_i w_i + r_j w_j = 0: the surfaces run along together.
+    const Vec3 xj(0.97 * (0.0625 + 0.03125), 0, 0);
+    PrescribedPair pair(table(), 0.0625, 0.03125, Vec3::Zero(), xj, 0.5);
+    for (int k = 0; k < 100; ++k)
+        pair.move(Vec3::Zero(), xj, Vec3(0, 0.01, 0.02), Vec3(0, -0.02, -0.04));
+    EXPECT_EQ(pair.shear().norm(), 0.0);
+}
+
+GRAINFIELD_FOR_ALL_KERNELS(Objectivity);
+GRAINFIELD_FOR_ALL_KERNELS(Ratcheting);
+GRAINFIELD_FOR_ALL_KERNELS(PairForce);
+
+}  // namespace
+}  // namespace grainfield::kernels

@@ -1,0 +1,125 @@
+#include "triaxial/cli/command_line.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+#include <tbb/global_control.h>
+
+#include <cstdio>
+#include <iostream>
+#include <new>
+
+#include "core/errors.hpp"
+#include "triaxial/cli/commands.hpp"
+#include "triaxial/cli/terminal_monitor.hpp"
+#include "triaxial/config/load_config.hpp"
+
+namespace grainfield::triaxial {
+namespace {
+
+constexpr int most_threads = 1024;
+
+constexpr const char* footer =
+    "Exit codes: 0 done; 2 bad usage, config or input; 3 the simulation failed; 4 a file could "
+    "not be read or written; 130 interrupted; 1 anything else.\n"
+    "Example:\n  grainfield field --realizations 3 --out field.csv\n"
+    "'grainfield SUBCOMMAND --help' tells more of each, with an example.";
+
+void add_commands(CLI::App& app, CommandLine& line) {
+    add_pack_command(app, line);
+    add_field_command(app, line);
+    add_triaxial_command(app, line);
+    add_report_command(app, line);
+    add_simulate_command(app, line);
+    add_convert_command(app, line);
+    add_info_command(app, line);
+}
+
+/// What was printed may still sit in a buffer, or the pipe's disk be full.
+void flush_results() {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+        throw FileError("standard output: cannot be written");
+}
+
+int fail(int code, std::string_view message) {
+    fmt::print(stderr, "grainfield: {}\n", message);
+    return code;
+}
+
+}  // namespace
+
+CLI::App& CommandLine::add(CLI::App& app, const std::string& name, const std::string& description,
+                           const std::string& example, Run run, OnSignal reaction) {
+    CLI::App& command = *app.add_subcommand(name, description);
+    command.footer("Example:\n  " + example);
+    command.add_option("--threads", threads_, "Threads to use (default: all that OpenMP gives)")
+        ->check(CLI::Range(1, most_threads));
+    command
+        .add_option("--set", settings_,
+                    "key.path=value: a config key to override, again for each key")
+        ->allow_extra_args(false);
+    command.add_flag("--quiet", quiet_, "No progress on stderr, errors only");
+    commands_[name] = {std::move(run), reaction};
+    return command;
+}
+
+void CommandLine::run(CLI::App& app, int argc, const char* const* argv) {
+    const std::string_view first = argc > 1 ? argv[1] : "";
+    if (!first.empty() && !first.starts_with('-') && !commands_.contains(first)) {
+        std::string names;
+        for (const auto& [name, command] : commands_) names += (names.empty() ? "" : ", ") + name;
+        throw InputError(fmt::format("'{}' is no subcommand; allowed: {}", first, names));
+    }
+    app.parse(argc, argv);
+    if (app.get_subcommands().empty()) {
+        fmt::print(stderr, "{}\n", app.help());
+        throw InputError("a subcommand is needed");
+    }
+    const Command& command = commands_.at(app.get_subcommands().front()->get_name());
+    if (threads_ == 0) threads_ = std::min(omp_get_max_threads(), most_threads);
+    omp_set_num_threads(threads_);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads_));
+    handle_signals(command.reaction);
+    TerminalMonitor monitor(quiet_);
+    Session session{settings_, monitor, threads_};
+    command.run(session);
+    monitor.finish();
+    flush_results();
+}
+
+void note_unused_settings(const Session& session) {
+    if (session.settings.empty()) return;
+    (void)load_config(std::nullopt, session.settings);
+    session.monitor.note("--set has no effect here: this subcommand reads no config");
+}
+
+int run_program(int argc, const char* const* argv) {
+    CLI::App app("Uncertainty of soils by random fields and the discrete element method.",
+                 "grainfield");
+    app.footer(footer);
+    app.set_version_flag("--version", "grainfield " GRAINFIELD_VERSION);
+    app.require_subcommand(0, 1);
+    CommandLine line;
+    add_commands(app, line);
+    try {
+        line.run(app, argc, argv);
+        return 0;
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+        return fail(2, fmt::format("{} (see 'grainfield --help')", error.what()));
+    } catch (const InputError& error) {
+        return fail(2, error.what());
+    } catch (const SimulationError& error) {
+        return fail(3, error.what());
+    } catch (const FileError& error) {
+        return fail(4, error.what());
+    } catch (const Interrupted& error) {
+        return fail(130, error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(1, "not enough memory");
+    } catch (const std::exception& error) {
+        return fail(1, fmt::format("unexpected: {}", error.what()));
+    }
+}
+
+}  // namespace grainfield::triaxial

@@ -1,0 +1,60 @@
+#pragma once
+// The frame of the program: options that every subcommand has, and from exceptions to exit codes.
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/monitor.hpp"
+#include "triaxial/cli/interrupt.hpp"
+
+namespace grainfield::triaxial {
+
+/// What a subcommand gets besides its own arguments.
+struct Session {
+    const std::vector<std::string>&
+        settings;            ///< of --set, in order, for load_config and load_scene
+    core::Monitor& monitor;  ///< on stderr, silent with --quiet
+    int threads;             ///< in use [-]
+};
+
+/// The subcommands by name. Each is registered by a function of commands.hpp:
+///
+///     void add_pack_command(CLI::App& app, CommandLine& line) {
+///         auto arguments = std::make_shared<Arguments>();
+///         CLI::App& command = line.add(app, "pack", "Packs ...", "grainfield pack --out P.h5",
+///                                      [arguments](Session& session) { ... });
+///         command.add_option("--out", arguments->out, "...")->required();
+///     }
+class CommandLine {
+  public:
+    using Run = std::function<void(Session&)>;
+
+    /// Adds a subcommand with --threads, --set, --quiet and the example in its help. `run` is
+    /// called once everything is parsed; it reports by exceptions (core/errors.hpp) only.
+    CLI::App& add(CLI::App& app, const std::string& name, const std::string& description,
+                  const std::string& example, Run run, OnSignal reaction = OnSignal::stop_safely);
+
+    /// Parses and runs. Throws what parsing (CLI::ParseError) or the subcommand throws.
+    void run(CLI::App& app, int argc, const char* const* argv);
+
+  private:
+    struct Command {
+        Run run;
+        OnSignal reaction = OnSignal::stop_safely;
+    };
+    std::map<std::string, Command, std::less<>> commands_;
+    int threads_ = 0;  // 0: as OpenMP gives
+    std::vector<std::string> settings_;
+    bool quiet_ = false;
+};
+
+/// The whole program. Returns the exit code: 0 done, 2 usage, config or input, 3 the simulation
+/// failed, 4 a file, 130 interrupted, 1 anything else.
+int run_program(int argc, const char* const* argv);
+
+}  // namespace grainfield::triaxial

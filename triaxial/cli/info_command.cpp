@@ -1,0 +1,22 @@
+// `info`: what is in a file, in a few lines.
+
+#include <fmt/format.h>
+
+#include "core/files/file_info.hpp"
+#include "triaxial/cli/commands.hpp"
+
+namespace grainfield::triaxial {
+
+void add_info_command(CLI::App& app, CommandLine& line) {
+    auto file = std::make_shared<std::string>();
+    CLI::App& command = line.add(
+        app, "info", "Says in a few lines what is in a file.", "grainfield info packing.h5",
+        [file](Session& session) {
+            note_unused_settings(session);
+            fmt::print("{}", core::describe_file(*file));
+        },
+        OnSignal::end_at_once);
+    command.add_option("file", *file, "A file that any subcommand reads or writes")->required();
+}
+
+}  // namespace grainfield::triaxial

@@ -1,0 +1,14 @@
+#pragma once
+// Results on stdout, one named value a line.
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace grainfield::triaxial {
+
+inline void print_row(std::string_view name, std::string_view value) {
+    fmt::print("{:<24}{}\n", name, value);
+}
+
+}  // namespace grainfield::triaxial

@@ -1,0 +1,158 @@
+#include "triaxial/scene/run_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "core/driver.hpp"
+#include "triaxial/scene/scene_output.hpp"
+#include "triaxial/scene/scene_setup.hpp"
+
+namespace grainfield::triaxial {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Only one set of kernels so far, and it is in double precision: "mixed" allows what is better.
+const kernels::KernelTable& choose_kernels(const SceneFile& file, const std::string& source) {
+    const bool wide = file.solver.isa == core::Isa::avx2 || file.solver.isa == core::Isa::avx512;
+    if (wide)
+        throw InputError(
+            fmt::format("{}: solver.isa = \"{}\": not in this build; allowed: \"auto\", \"scalar\"",
+                        source, file.solver.isa == core::Isa::avx2 ? "avx2" : "avx512"));
+    return kernels::reference_kernels();
+}
+
+/// round(end/step), or nothing where the step is automatic [-].
+std::optional<std::int64_t> fixed_steps(const SceneFile& file, const std::string& source) {
+    if (!file.step) return std::nullopt;
+    const double steps = std::round(file.end / *file.step);
+    if (!(steps >= 1 && steps <= 1e15))
+        throw InputError(
+            fmt::format("{}: time.end = {}: is {} steps of time.step = {} s; must be 1 "
+                        "to 1e15 steps",
+                        source, file.end, steps, *file.step));
+    return static_cast<std::int64_t>(steps);
+}
+
+class SceneRun {
+  public:
+    SceneRun(const SceneFile& file, const std::string& source, core::Simulation& simulation,
+             SceneOutput& output, core::Monitor& monitor)
+        : file_(file),
+          fixed_steps_(fixed_steps(file, source)),
+          simulation_(simulation),
+          output_(output),
+          monitor_(monitor),
+          driver_(simulation, {file.step, file.safety, file.mass_scaling}, monitor),
+          servos_(set_up_servos(file, simulation.scene(), source)) {}
+
+    void run() {
+        bool last = false;
+        while (!last) {
+            simulation_.compute_forces(true);
+            double step = driver_.control().next(simulation_);
+            if (fixed_steps_) {
+                last = simulation_.steps() + 1 == *fixed_steps_;
+            } else if (file_.end - simulation_.time() <= (1 + 1e-9) * step) {
+                step = file_.end - simulation_.time();
+                last = true;
+            }
+            write_if_due(step);
+            for (ServoWall& s : servos_)
+                s.servo.steer(simulation_, s.area(simulation_.walls()), step);
+            simulation_.advance(step);
+            if (simulation_.steps() % core::Driver::watch_interval == 0) driver_.watch();
+            report();
+        }
+        simulation_.compute_forces(true);
+        simulation_.check_state();
+        output_.add(simulation_, time());
+    }
+
+    /// Free of the sum's round-off where the step is fixed [s].
+    double time() const {
+        if (!fixed_steps_) return simulation_.time();
+        return static_cast<double>(simulation_.steps()) * *file_.step;
+    }
+
+  private:
+    void write_if_due(double step) {
+        // A step may miss a multiple of the interval by round-off.
+        const double reached = (time() + 1e-6 * step) / file_.output_interval;
+        if (reached < next_output_) return;
+        output_.add(simulation_, time());
+        next_output_ = std::floor(reached) + 1;
+    }
+
+    void report() {
+        constexpr double interval = 0.1;  // [s]
+        if (seconds_since(reported_) < interval) return;
+        reported_ = Clock::now();
+        monitor_.progress(
+            time() / file_.end, simulation_.steps(),
+            fmt::format("t {:.4g} s, {} contacts", time(), simulation_.touching_contacts()));
+    }
+
+    const SceneFile& file_;
+    std::optional<std::int64_t> fixed_steps_;
+    core::Simulation& simulation_;
+    SceneOutput& output_;
+    core::Monitor& monitor_;
+    core::Driver driver_;
+    std::vector<ServoWall> servos_;
+    double next_output_ = 0;  // in units of the interval [-]
+    Clock::time_point reported_ = Clock::now();
+};
+
+}  // namespace
+
+SceneSummary run_scene(const SceneFile& file, const std::filesystem::path& source,
+                       const std::filesystem::path& out, int threads, core::Monitor& monitor) {
+    const kernels::KernelTable& kernels = choose_kernels(file, source.string());
+    monitor.begin("reading the scene");
+    core::SimulationOptions options;
+    options.ledger = true;
+    core::Simulation simulation(set_up_scene(file), kernels, options);
+    SceneOutput output(out);
+    SceneRun run(file, source.string(), simulation, output, monitor);
+
+    monitor.begin("simulating");
+    const Clock::time_point start = Clock::now();
+    try {
+        run.run();
+    } catch (const SimulationError& error) {
+        const auto saved = save_state(simulation, out);
+        throw SimulationError(
+            fmt::format("{}; the state is saved in {}", error.what(), saved.string()));
+    } catch (const Interrupted& error) {
+        const auto saved = save_state(simulation, out);
+        throw Interrupted(fmt::format("{} at time {:g} s; the state is saved in {}", error.what(),
+                                      run.time(), saved.string()));
+    }
+    SceneSummary summary;
+    summary.particles = simulation.spheres().size();
+    summary.walls = simulation.walls().size();
+    summary.contacts = simulation.touching_contacts();
+    summary.steps = simulation.steps();
+    summary.time = run.time();
+    summary.time_step = file.step ? *file.step : summary.time / double(summary.steps);
+    summary.energy_closing_error = output.energy_closing_error();
+    summary.wall_seconds = seconds_since(start);
+    summary.particle_steps_per_second =
+        double(summary.particles) * double(summary.steps) / summary.wall_seconds;
+    summary.state_hash = simulation.state_hash();
+    summary.isa = kernels.isa;
+    summary.precision = kernels.precision;
+    summary.threads = threads;
+    output.finish(simulation, summary);
+    return summary;
+}
+
+}  // namespace grainfield::triaxial

@@ -1,0 +1,135 @@
+#include "triaxial/scene/scene_output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/errors.hpp"
+#include "core/files/sphere_file.hpp"
+#include "triaxial/scene/contact_table.hpp"
+
+namespace grainfield::triaxial {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* trajectory_header = "time_s,id,x,y,z,vx,vy,vz,wx,wy,wz";
+constexpr const char* energy_header =
+    "time_s,kinetic_J,rotational_J,elastic_normal_J,elastic_shear_J,friction_work_J,"
+    "damping_work_J,external_work_J,gravity_J";
+
+fs::path made_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (!fs::is_directory(folder))
+        throw FileError(fmt::format("{}: no such folder, and it cannot be made{}", folder.string(),
+                                    error ? ": " + error.message() : ""));
+    return folder;
+}
+
+void write_contacts(const core::Simulation& simulation, const fs::path& path) {
+    CsvStream table(path,
+                    "i,j,overlap_m,normal_force_N,shear_force_x_N,shear_force_y_N,"
+                    "shear_force_z_N,normal_stiffness_N_m");
+    for (const ContactRow& row : contact_table(simulation)) {
+        table.add(std::int64_t{row.i});
+        table.add(std::int64_t{row.j});
+        for (const double value : {row.overlap, row.normal_force, row.shear_force.x(),
+                                   row.shear_force.y(), row.shear_force.z(), row.normal_stiffness})
+            table.add(value);
+        table.end_row();
+    }
+    table.commit();
+}
+
+std::string summary_text(const SceneSummary& s) {
+    const nlohmann::ordered_json json = {
+        {"particles", s.particles},
+        {"walls", s.walls},
+        {"contacts", s.contacts},
+        {"steps", s.steps},
+        {"time_step_s", s.time_step},
+        {"time_s", s.time},
+        {"energy_closing_error", s.energy_closing_error},
+        {"wall_seconds", {{"total", s.wall_seconds}}},
+        {"particle_steps_per_second", s.particle_steps_per_second},
+        {"state_hash", s.state_hash},
+        {"isa", s.isa},
+        {"precision", s.precision},
+        {"threads", s.threads},
+        {"version", GRAINFIELD_VERSION},
+    };
+    return json.dump(2) + "\n";
+}
+
+}  // namespace
+
+SceneOutput::SceneOutput(const fs::path& folder)
+    : folder_(made_folder(folder)),
+      trajectory_(folder / "trajectory.csv", trajectory_header),
+      energy_(folder / "energy.csv", energy_header) {}
+
+void SceneOutput::add(const core::Simulation& simulation, double time) {
+    const core::Vec3Column& position = simulation.spheres().position;
+    for (std::size_t i = 0; i < position.size(); ++i) {
+        const kernels::OnStep motion = simulation.on_step(i);
+        trajectory_.add(time);
+        trajectory_.add(static_cast<std::int64_t>(i));
+        for (const Vec3& v : {position[i], motion.velocity, motion.spin})
+            for (const double component : v) trajectory_.add(component);
+        trajectory_.end_row();
+    }
+
+    const core::Energy e = simulation.energy();
+    energy_.add(time);
+    // 0 - w, not -w: a wall that did no work shows as 0, not as -0.
+    for (const double value : {e.kinetic, e.rotational, e.elastic_normal, e.elastic_shear,
+                               e.friction_work, e.damping_work, 0.0 - e.external_work, e.gravity})
+        energy_.add(value);
+    energy_.end_row();
+
+    if (!first_) first_ = e;
+    for (const double value :
+         {e.kinetic, e.rotational, e.elastic_normal, e.elastic_shear, e.friction_work,
+          e.damping_work, e.external_work, e.gravity - first_->gravity})
+        largest_energy_ = std::max(largest_energy_, std::abs(value));
+    largest_change_ = std::max(largest_change_, std::abs(e.closing() - first_->closing()));
+}
+
+double SceneOutput::energy_closing_error() const {
+    return largest_energy_ > 0 ? largest_change_ / largest_energy_ : 0.0;
+}
+
+void SceneOutput::finish(const core::Simulation& simulation, const SceneSummary& summary) {
+    trajectory_.commit();
+    energy_.commit();
+    write_contacts(simulation, folder_ / "contacts.csv");
+    core::write_file_atomically(folder_ / "summary.json", summary_text(summary));
+}
+
+fs::path save_state(const core::Simulation& simulation, const fs::path& folder) {
+    core::SphereFile file;
+    file.spheres = simulation.spheres();
+    file.kind = "state";
+    file.has_normal_stiffness = file.has_friction_angle = file.has_velocity = true;
+    file.attributes = {{"time_s", simulation.time()}, {"steps", simulation.steps()}};
+    core::ExtraArray walls{{simulation.walls().size(), 9}, {}};
+    for (const core::Wall& wall : simulation.walls())
+        for (const Vec3& v : {wall.point, wall.normal, wall.velocity})
+            walls.values.insert(walls.values.end(), v.begin(), v.end());
+    core::ExtraArray contacts{{0, 5}, {}};
+    for (const ContactRow& row : contact_table(simulation)) {
+        ++contacts.shape[0];
+        contacts.values.insert(contacts.values.end(),
+                               {double(row.i), double(row.j), row.shear_force.x(),
+                                row.shear_force.y(), row.shear_force.z()});
+    }
+    file.extra = {{"walls_point_normal_velocity", walls}, {"contacts_i_j_shear_force", contacts}};
+    const fs::path path = folder / "state.h5";
+    core::write_spheres(path, file);
+    return path;
+}
+
+}  // namespace grainfield::triaxial

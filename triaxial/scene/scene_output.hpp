@@ -1,0 +1,47 @@
+#pragma once
+// The files of a scene's run (interface.md, "Files").
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/simulation.hpp"
+#include "triaxial/scene/csv_stream.hpp"
+#include "triaxial/scene/run_scene.hpp"
+
+namespace grainfield::triaxial {
+
+/// trajectory.csv and energy.csv, row by row as the run goes on.
+///
+/// Velocities and spins are those at the time of the positions. The eight energies of a row add up
+/// to a constant: kinetic, rotational, elastic and potential (gravity_J, -m g.x) of the moment, the
+/// works of friction and damping dissipated since the start, and external_work_J, minus the work
+/// that moving walls have put in since the start.
+class SceneOutput {
+  public:
+    /// Makes the folder where it is missing. FileError.
+    explicit SceneOutput(const std::filesystem::path& folder);
+
+    /// Adds the present state at `time` [s]; compute_forces(true) must have been called.
+    void add(const core::Simulation& simulation, double time);
+
+    /// Largest change of the sum of energies since the start, over the largest of the energies and
+    /// works (gravity_J counted from the start) [-].
+    double energy_closing_error() const;
+
+    /// The tables take their names; contacts.csv and summary.json are written.
+    void finish(const core::Simulation& simulation, const SceneSummary& summary);
+
+  private:
+    std::filesystem::path folder_;
+    CsvStream trajectory_, energy_;
+    std::optional<core::Energy> first_;
+    double largest_energy_ = 0, largest_change_ = 0;  // [J]
+};
+
+/// Saves spheres, walls and touching contacts as `folder`/state.h5, whatever state they are in, and
+/// returns the file's path. FileError.
+std::filesystem::path save_state(const core::Simulation& simulation,
+                                 const std::filesystem::path& folder);
+
+}  // namespace grainfield::triaxial

@@ -1,0 +1,74 @@
+#include "triaxial/test/sample.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "core/errors.hpp"
+#include "core/files/sphere_checks.hpp"
+#include "core/neighbour_search.hpp"
+#include "randomfield/field_error.hpp"
+
+namespace grainfield::triaxial {
+
+core::SphereFile read_packing(const std::filesystem::path& path, const Config& config) {
+    core::SphereFile file = core::read_spheres(path);
+    core::ParticleStore& s = file.spheres;
+    core::check_spheres(s, path.string(), file.lines);
+    std::vector<std::pair<std::int32_t, std::int32_t>> candidates;
+    for (const auto [i, j] : core::find_pairs(s.position, s.radius, 0.0)) candidates.emplace_back(i, j);
+    core::check_overlaps(s, candidates, path.string(), file.lines);
+
+    const bool ours = file.kind == "packing";  // its properties were those of the packing process
+    if (!file.has_normal_stiffness || ours)
+        std::fill(s.normal_stiffness.begin(), s.normal_stiffness.end(), config.particle.normal_stiffness);
+    if (!file.has_friction_angle || ours)
+        std::fill(s.friction_angle.begin(), s.friction_angle.end(), config.particle.friction_angle);
+    if (ours) file.has_normal_stiffness = file.has_friction_angle = false;
+    s.set_density(config.particle.density);
+    if (!file.box) file.box = core::bounding_box(s);
+    return file;
+}
+
+FieldRecord map_field(const Config& config, std::int64_t realization, Sample& sample) {
+    FieldRecord record;
+    record.variable = config.field.variable;
+    record.realization = realization;
+    if (config.field.variable == randomfield::Variable::none) return record;
+    const randomfield::FieldGenerator generator({config.packing.blocks, config.packing.block}, config.field);
+    record.field = generator.draw(static_cast<std::uint64_t>(realization));
+    record.gamma = generator.gamma();
+    if (generator.grid().size() <= randomfield::max_error_cells)
+        record.covariance_error = generator.covariance_error();
+
+    core::ParticleStore& s = sample.spheres;
+    std::vector<std::size_t> cell(s.size());
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const core::BlockIndex& block = s.block[i];
+        if (block == core::no_block) {
+            cell[i] = generator.grid().index_at(s.position[i] - sample.box.lower);
+            continue;
+        }
+        for (std::size_t a = 0; a < 3; ++a)
+            if (block[a] < 0 || block[a] >= config.packing.blocks[a])
+                throw InputError(fmt::format(
+                    "packing.blocks = [{}, {}, {}]: sphere {} of the packing is in block ({}, {}, {}), outside the "
+                    "field's grid; give the blocks of the packing",
+                    config.packing.blocks[0], config.packing.blocks[1], config.packing.blocks[2], i, block[0],
+                    block[1], block[2]));
+        cell[i] = generator.grid().index_of_block(block);
+    }
+    randomfield::BlockField::map(record.field.friction_angle, cell, s.friction_angle);
+    randomfield::BlockField::map(record.field.normal_stiffness, cell, s.normal_stiffness);
+    if (const auto& k = record.field.normal_stiffness; !k.empty()) {
+        record.mean_ratio_expected = generator.stiffness_mean_ratio();
+        record.mean_ratio_cells =
+            std::accumulate(k.begin(), k.end(), 0.0) / static_cast<double>(k.size()) / config.field.stiffness.mean;
+    }
+    return record;
+}
+
+}  // namespace grainfield::triaxial

@@ -1,0 +1,35 @@
+#pragma once
+// From a packing and a random field to the sample of a test.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/files/sphere_file.hpp"
+#include "randomfield/block_field.hpp"
+#include "triaxial/test/triaxial_test.hpp"
+
+namespace grainfield::triaxial {
+
+/// Reads a packing for a test. An .h5 brings its box; of a text file the box is the spheres'
+/// bounding box. Properties are those of [particle]; of a text file, columns that it brings
+/// override them. Throws InputError (bad spheres, overlaps), FileError.
+core::SphereFile read_packing(const std::filesystem::path& path, const Config& config);
+
+/// What the random field did to the sample, for summary.json.
+struct FieldRecord {
+    randomfield::Variable variable = randomfield::Variable::none;
+    std::int64_t realization = 0;
+    double gamma = 0;                          ///< variance of a cell's G [-]
+    std::optional<double> covariance_error;    ///< of the generator, in gamma [-]
+    double mean_ratio_expected = 1;            ///< E[k]/mu (stiffness) [-]
+    double mean_ratio_cells = 1;               ///< of this realization's cells [-]
+    randomfield::BlockField field;             ///< empty without a random variable
+};
+
+/// Draws realization k and maps it onto the spheres, block by block; spheres without a block take
+/// that of the cell they lie in. Does nothing with field.variable = "none". Throws InputError if a
+/// block lies outside the field's grid.
+FieldRecord map_field(const Config& config, std::int64_t realization, Sample& sample);
+
+}  // namespace grainfield::triaxial

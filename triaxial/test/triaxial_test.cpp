@@ -1,0 +1,87 @@
+#include "triaxial/test/triaxial_test.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "packing/isotropic.hpp"
+#include "triaxial/test/shear.hpp"
+
+namespace grainfield::triaxial {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// I = strain rate * d * sqrt(rho/p), d the mean diameter by volume.
+double inertial_number(const core::ParticleStore& s, const Config& config) {
+    double cubes = 0, fourths = 0;
+    for (double r : s.radius) {
+        cubes += r * r * r;
+        fourths += r * r * r * r;
+    }
+    return config.triaxial.strain_rate * 2 * fourths / cubes *
+           std::sqrt(config.particle.density / config.triaxial.confining_stress);
+}
+
+}  // namespace
+
+core::Scene make_scene(Sample sample, const Config& config) {
+    core::Scene scene;
+    scene.spheres = std::move(sample.spheres);
+    scene.stiffness_ratio = config.particle.stiffness_ratio;
+    scene.damping = config.damping;
+    scene.gravity = Vec3(0, -config.triaxial.gravity, 0);
+    core::Wall wall;
+    wall.friction_angle = config.wall.friction_angle;
+    wall.normal_stiffness = config.particle.normal_stiffness;
+    wall.stiffness_ratio = config.wall.poisson_ratio;
+    scene.walls = core::box_walls(sample.box, wall);
+    return scene;
+}
+
+TestResult run_test(core::Simulation& simulation, const Config& config, core::Monitor& monitor) {
+    TestResult result;
+    const double solid = simulation.spheres().solid_volume();
+    result.porosity = 1 - solid / packing::box_dimensions(simulation).prod();
+    result.inertial_number = inertial_number(simulation.spheres(), config);
+    core::Driver driver(simulation, config.time, monitor);
+
+    auto start = std::chrono::steady_clock::now();
+    monitor.begin("isotropic compression");
+    const packing::IsotropicResult isotropic =
+        packing::compress_isotropically(driver, config.triaxial.confining_stress);
+    result.isotropic_steps = isotropic.steps;
+    result.isotropic_unbalanced = isotropic.unbalanced_force_ratio;
+    result.isotropic_stress_error = isotropic.stress_error;
+    result.isotropic_seconds = seconds_since(start);
+
+    result.sheared_porosity = 1 - solid / packing::box_dimensions(simulation).prod();
+    result.contacts = simulation.touching_contacts();
+    result.fabric = core::measure_fabric(simulation);
+
+    start = std::chrono::steady_clock::now();
+    monitor.begin("shear");
+    ShearStage shear(driver, config.triaxial);
+    shear.run();
+    result.curve = shear.curve();
+    result.end_reason = shear.end_reason();
+    result.shear_steps = shear.steps();
+    result.mean_step = shear.time() / static_cast<double>(shear.steps());
+    result.lateral_rms_error = shear.lateral_rms_error();
+    result.lateral_max_error = shear.lateral_max_error();
+    result.inertia_ratio = driver.control().inertia_ratio();
+    result.results = evaluate_curve(result.curve, config.triaxial.confining_stress);
+    for (const CurvePoint& p : result.curve) {
+        if (p.deviator_stress > 0.5 * result.results.peak_deviator_stress) break;
+        result.lowest_start_ratio =
+            std::min(result.lowest_start_ratio, p.deviator_stress / config.triaxial.confining_stress);
+    }
+    result.shear_seconds = seconds_since(start);
+    return result;
+}
+
+}  // namespace grainfield::triaxial
