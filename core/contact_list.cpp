@@ -23,9 +23,21 @@ std::vector<kernels::WallPair> find_wall_pairs(const ParticleStore& spheres,
     std::vector<kernels::WallPair> found;
     for (std::size_t w = 0; w < walls.size(); ++w)
         for (std::size_t i = 0; i < spheres.size(); ++i)
-            if (walls[w].normal.dot(spheres.position[i] - walls[w].point) < spheres.radius[i] + skin)
+            if (walls[w].normal.dot(spheres.position[i] - walls[w].point) <
+                spheres.radius[i] + skin)
                 found.push_back({static_cast<std::int32_t>(w), static_cast<std::int32_t>(i)});
     return found;
+}
+
+std::vector<std::size_t> ranges_of(std::span<const kernels::WallPair> pairs) {
+    std::vector<std::size_t> starts{0};
+    const auto chunk = [&](std::size_t c) {
+        return static_cast<std::size_t>(pairs[c].sphere) / chunk_size;
+    };
+    for (std::size_t c = 1; c < pairs.size(); ++c)
+        if (pairs[c].wall != pairs[c - 1].wall || chunk(c) != chunk(c - 1)) starts.push_back(c);
+    if (!pairs.empty()) starts.push_back(pairs.size());
+    return starts;
 }
 
 }  // namespace
@@ -44,6 +56,7 @@ void ContactList::build(const ParticleStore& spheres, std::span<const Wall> wall
 
     pairs_ = find_pairs(spheres.position, spheres.radius, skin);
     wall_pairs_ = find_wall_pairs(spheres, walls, skin);
+    wall_ranges_ = ranges_of(wall_pairs_);
     shear_.assign(size(), Vec3::Zero());
     touching_.assign(size(), 0);
     force_.resize(size());
@@ -103,6 +116,7 @@ void ContactList::index_incidences(std::size_t spheres) {
 
 void ContactList::forget_walls() {
     wall_pairs_.clear();
+    wall_ranges_ = {0};
     shear_.resize(pairs_.size());
     touching_.resize(pairs_.size());
     force_.resize(pairs_.size());
@@ -116,7 +130,8 @@ bool ContactList::restore(std::int32_t i, std::int32_t j, const Vec3& shear) {
     if (j >= 0) {
         const kernels::Pair key{std::min(i, j), std::max(i, j)};
         const auto at = std::lower_bound(pairs_.begin(), pairs_.end(), key);
-        if (at != pairs_.end() && *at == key) contact = static_cast<std::size_t>(at - pairs_.begin());
+        if (at != pairs_.end() && *at == key)
+            contact = static_cast<std::size_t>(at - pairs_.begin());
     } else {
         const kernels::WallPair key{-1 - j, i};
         const auto at = std::lower_bound(wall_pairs_.begin(), wall_pairs_.end(), key);

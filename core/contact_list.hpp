@@ -17,6 +17,10 @@ class ContactList {
     std::span<const kernels::WallPair> wall_pairs() const { return wall_pairs_; }
     std::size_t size() const { return pairs_.size() + wall_pairs_.size(); }
 
+    /// Starts of the ranges of wall_pairs() whose loads are added up apart, and the end of the
+    /// last. A range is one wall's spheres of one chunk: its sum does not depend on the skin.
+    std::span<const std::size_t> wall_ranges() const { return wall_ranges_; }
+
     /// Columns of the sphere pairs, indexed like pairs().
     kernels::ContactColumns pair_columns() { return columns(0); }
     /// Columns of the wall contacts, indexed like wall_pairs().
@@ -45,8 +49,8 @@ class ContactList {
     /// True before the first build and after forget_walls().
     bool stale() const { return stale_; }
     double skin() const { return skin_; }
-    const Vec3Column& built_position() const { return built_position_; }  ///< [m]
-    const std::vector<Vec3>& built_walls() const { return built_walls_; } ///< wall points [m]
+    const Vec3Column& built_position() const { return built_position_; }   ///< [m]
+    const std::vector<Vec3>& built_walls() const { return built_walls_; }  ///< wall points [m]
     std::int64_t builds() const { return builds_; }
 
   private:
@@ -58,6 +62,7 @@ class ContactList {
 
     std::vector<kernels::Pair> pairs_;
     std::vector<kernels::WallPair> wall_pairs_;
+    std::vector<std::size_t> wall_ranges_{0};
     Column<Vec3> shear_, force_, moment_;
     Column<std::uint8_t> touching_;
     std::vector<std::uint32_t> offsets_;

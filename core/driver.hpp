@@ -16,21 +16,36 @@ class Driver {
     Driver(Simulation& simulation, const TimeOptions& time, Monitor& monitor)
         : simulation_(simulation), control_(time), monitor_(monitor) {}
 
-    /// One step. steer(step) is called with forces current, before anything moves; it may set wall
-    /// velocities, gravity and the like. With `sums`, sums over contacts are valid there.
+    /// One step; tells the monitor before an error or an interruption leaves it. steer(step) is
+    /// called with forces current, before anything moves; it may set wall velocities, gravity and
+    /// the like. With `sums`, sums over contacts are valid there.
     template <class Steer>
     void step(bool sums, const Steer& steer) {
-        simulation_.compute_forces(sums);
-        const double step = control_.next(simulation_);
-        steer(step);
-        simulation_.advance(step);
-        if (simulation_.steps() % watch_interval == 0) watch();
+        try {
+            simulation_.compute_forces(sums);
+            const double step = control_.next(simulation_);
+            steer(step);
+            simulation_.advance(step);
+            if (simulation_.steps() % watch_interval == 0) watch();
+        } catch (const SimulationError&) {
+            monitor_.ended_early(simulation_);
+            throw;
+        } catch (const Interrupted&) {
+            monitor_.ended_early(simulation_);
+            throw;
+        }
     }
 
     /// Throws SimulationError if the state is broken, Interrupted if the user asked to stop.
     void watch() {
         simulation_.check_state();
         if (monitor_.stop_requested()) throw Interrupted("stopped by the user");
+    }
+
+    /// Ends a run that cannot reach what it should; the monitor hears of it first.
+    [[noreturn]] void fail(const std::string& what) {
+        monitor_.ended_early(simulation_);
+        throw SimulationError(what);
     }
 
     Simulation& simulation() { return simulation_; }

@@ -13,8 +13,9 @@ void FrequencyEstimator::assemble(const Simulation& simulation) {
     const ParticleStore& s = scene.spheres;
     const ContactList& contacts = simulation.contacts();
     springs_.clear();
-    bool friction = scene.stiffness_ratio > 0 &&
-                    std::any_of(s.friction_angle.begin(), s.friction_angle.end(), [](double f) { return f > 0; });
+    bool friction =
+        scene.stiffness_ratio > 0 && std::any_of(s.friction_angle.begin(), s.friction_angle.end(),
+                                                 [](double f) { return f > 0; });
     const auto pairs = contacts.pairs();
     for (std::size_t c = 0; c < pairs.size(); ++c) {
         if (!contacts.touching(c)) continue;
@@ -22,8 +23,8 @@ void FrequencyEstimator::assemble(const Simulation& simulation) {
         const Vec3 branch = s.position[j] - s.position[i];
         const double kn = kernels::contact_stiffness(0.5 * (s.radius[i] + s.radius[j]),
                                                      s.normal_stiffness[i], s.normal_stiffness[j]);
-        springs_.push_back({i, j, branch.normalized(), kn, friction ? scene.stiffness_ratio * kn : 0.0,
-                            s.radius[i], s.radius[j]});
+        springs_.push_back({i, j, branch.normalized(), kn,
+                            friction ? scene.stiffness_ratio * kn : 0.0, s.radius[i], s.radius[j]});
     }
     const auto wall_pairs = contacts.wall_pairs();
     for (std::size_t c = 0; c < wall_pairs.size(); ++c) {
@@ -34,10 +35,10 @@ void FrequencyEstimator::assemble(const Simulation& simulation) {
         const double ks_sphere = scene.stiffness_ratio * k;
         const double ks_wall = wall.stiffness_ratio * wall.normal_stiffness;
         const bool sticks = friction && wall.friction_angle > 0 && ks_wall > 0;
-        springs_.push_back({i, -1, -wall.normal,
-                            kernels::contact_stiffness(s.radius[i], k, wall.normal_stiffness),
-                            sticks ? kernels::contact_stiffness(s.radius[i], ks_sphere, ks_wall) : 0.0,
-                            s.radius[i], 0.0});
+        springs_.push_back(
+            {i, -1, -wall.normal, kernels::contact_stiffness(s.radius[i], k, wall.normal_stiffness),
+             sticks ? kernels::contact_stiffness(s.radius[i], ks_sphere, ks_wall) : 0.0,
+             s.radius[i], 0.0});
     }
     spheres_ = s.size();
     offsets_.assign(spheres_ + 1, 0);
@@ -50,7 +51,8 @@ void FrequencyEstimator::assemble(const Simulation& simulation) {
     std::vector<std::uint32_t> next(offsets_.begin(), offsets_.end() - 1);
     for (std::size_t c = 0; c < springs_.size(); ++c) {
         incidences_[next[springs_[c].i]++] = static_cast<std::uint32_t>(2 * c);
-        if (springs_[c].j >= 0) incidences_[next[springs_[c].j]++] = static_cast<std::uint32_t>(2 * c + 1);
+        if (springs_[c].j >= 0)
+            incidences_[next[springs_[c].j]++] = static_cast<std::uint32_t>(2 * c + 1);
     }
     scale_.resize(2 * spheres_);
     for (std::size_t i = 0; i < spheres_; ++i) {
@@ -166,18 +168,24 @@ double FrequencyEstimator::estimate(const Simulation& simulation, int restarts, 
     return std::sqrt(std::max(0.0, square));
 }
 
-double isolated_frequency(const Simulation& simulation) {
+std::vector<double> isolated_square_frequencies(const Simulation& simulation) {
     const ParticleStore& s = simulation.spheres();
     const double ratio = simulation.scene().stiffness_ratio;
-    double square = 0;
+    std::vector<double> square(s.size());
     for (std::size_t i = 0; i < s.size(); ++i) {
-        const double kn = kernels::contact_stiffness(s.radius[i], s.normal_stiffness[i], s.normal_stiffness[i]);
+        const double kn =
+            kernels::contact_stiffness(s.radius[i], s.normal_stiffness[i], s.normal_stiffness[i]);
         const double m = simulation.inverse_inertial_mass()[i];
         // Two contacts on opposite sides, neighbours moving against it: 4 K_n/m. Rolling and
         // sliding of one contact, both bodies turning: 7 K_s/m.
-        square = std::max(square, std::max(4.0, 7.0 * ratio) * kn * m);
+        square[i] = std::max(4.0, 7.0 * ratio) * kn * m;
     }
-    return std::sqrt(square);
+    return square;
+}
+
+double isolated_frequency(const Simulation& simulation) {
+    const std::vector<double> square = isolated_square_frequencies(simulation);
+    return square.empty() ? 0.0 : std::sqrt(*std::max_element(square.begin(), square.end()));
 }
 
 std::vector<double> local_square_frequencies(const Simulation& simulation) {
@@ -203,17 +211,18 @@ std::vector<double> local_square_frequencies(const Simulation& simulation) {
                 } else {
                     const Wall& wall = scene.walls[contacts.wall_pairs()[c - pairs.size()].wall];
                     normal = wall.normal;
-                    kn = kernels::contact_stiffness(s.radius[i], s.normal_stiffness[i], wall.normal_stiffness);
+                    kn = kernels::contact_stiffness(s.radius[i], s.normal_stiffness[i],
+                                                    wall.normal_stiffness);
                 }
                 const double ks = scene.stiffness_ratio * kn;
                 directions += (kn - ks) * normal * normal.transpose();
                 directions.diagonal().array() += ks;
                 shear += ks;
             }
-            const double translation =
-                Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>()
-                    .computeDirect(directions, Eigen::EigenvaluesOnly)
-                    .eigenvalues()[2] * simulation.inverse_inertial_mass()[i];
+            const double translation = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>()
+                                           .computeDirect(directions, Eigen::EigenvaluesOnly)
+                                           .eigenvalues()[2] *
+                                       simulation.inverse_inertial_mass()[i];
             const double rotation =
                 shear * s.radius[i] * s.radius[i] * simulation.inverse_inertia()[i];
             local[i] = std::max(translation, rotation);

@@ -42,6 +42,8 @@ class FrequencyEstimator {
 /// Frequency a sphere could reach when it is caught between two others of its own size, before any
 /// contact exists: the largest over the spheres [rad/s].
 double isolated_frequency(const Simulation& simulation);
+/// The same of each sphere, squared [rad2/s2].
+std::vector<double> isolated_square_frequencies(const Simulation& simulation);
 
 /// Highest frequency of each sphere with all its neighbours held fixed, squared; a lower bound of
 /// its share in the network's modes [rad2/s2].

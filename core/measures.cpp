@@ -44,8 +44,10 @@ Fabric measure_fabric(const Simulation& simulation) {
     std::vector<int> count(n, 0);
     double normals = 0;
     const auto bodies = [&](std::size_t c, auto&& visit) {
-        if (c < pairs.size()) visit(pairs[c].i, pairs[c].j);
-        else visit(contacts.wall_pairs()[c - pairs.size()].sphere, -1);
+        if (c < pairs.size())
+            visit(pairs[c].i, pairs[c].j);
+        else
+            visit(contacts.wall_pairs()[c - pairs.size()].sphere, -1);
     };
     for (std::size_t c = 0; c < contacts.size(); ++c) {
         if (!contacts.touching(c)) continue;
@@ -53,15 +55,17 @@ Fabric measure_fabric(const Simulation& simulation) {
         bodies(c, [&](std::int32_t i, std::int32_t j) {
             ++count[i];
             if (j >= 0) ++count[j];
-            normal = j >= 0 ? Vec3((s.position[j] - s.position[i]).normalized())
-                            : simulation.walls()[contacts.wall_pairs()[c - pairs.size()].wall].normal;
+            normal = j >= 0
+                         ? Vec3((s.position[j] - s.position[i]).normalized())
+                         : simulation.walls()[contacts.wall_pairs()[c - pairs.size()].wall].normal;
         });
         fabric.tensor += normal * normal.transpose();
         normals += 1;
     }
     if (normals > 0) {
         fabric.tensor /= normals;
-        const Vec3 values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(fabric.tensor).eigenvalues();
+        const Vec3 values =
+            Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(fabric.tensor).eigenvalues();
         fabric.anisotropy = values[2] - values[0];
     }
     double contacts_of_all = 0, rattlers = 0, rattler_volume = 0, volume = 0, held = 0;

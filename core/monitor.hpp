@@ -7,6 +7,8 @@
 
 namespace grainfield::core {
 
+class Simulation;
+
 class Monitor {
   public:
     virtual ~Monitor() = default;
@@ -17,6 +19,9 @@ class Monitor {
     virtual void progress(double /*done*/, std::int64_t /*steps*/, std::string_view /*detail*/) {}
     /// A line worth keeping, e.g. a figure chosen by the program.
     virtual void note(const std::string& /*line*/) {}
+    /// The simulation broke (it is about to throw SimulationError) or was stopped: the state may be
+    /// worth keeping.
+    virtual void ended_early(const Simulation& /*simulation*/) {}
     /// True once the user asked to stop; the work then throws Interrupted at a safe place.
     virtual bool stop_requested() const { return false; }
 };

@@ -21,7 +21,7 @@ struct Grid {
     double cell = 0;        // side [m]
     double max_radius = 0;  // of the level [m]
     std::array<std::int64_t, 3> n{1, 1, 1};
-    std::vector<std::uint32_t> first;    // of each cell in `spheres`, and one past the last
+    std::vector<std::uint32_t> first;  // of each cell in `spheres`, and one past the last
     std::vector<std::int32_t> spheres;
 
     std::int64_t coordinate(double x, int axis) const {
@@ -65,8 +65,7 @@ Grid make_grid(const std::vector<std::int32_t>& members, const Vec3Column& x,
     std::partial_sum(grid.first.begin(), grid.first.end(), grid.first.begin());
     std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
     grid.spheres.resize(members.size());
-    for (std::size_t m = 0; m < members.size(); ++m)
-        grid.spheres[next[cell_of[m]]++] = members[m];
+    for (std::size_t m = 0; m < members.size(); ++m) grid.spheres[next[cell_of[m]]++] = members[m];
     return grid;
 }
 
@@ -77,7 +76,8 @@ std::size_t level_of(double radius, double smallest) {
 
 }  // namespace
 
-std::vector<kernels::Pair> find_pairs(const Vec3Column& x, const Column<double>& radius, double skin) {
+std::vector<kernels::Pair> find_pairs(const Vec3Column& x, const Column<double>& radius,
+                                      double skin) {
     const std::size_t n = radius.size();
     if (n < 2) return {};
     const auto [smallest, largest] = std::minmax_element(radius.begin(), radius.end());
@@ -108,14 +108,17 @@ std::vector<kernels::Pair> find_pairs(const Vec3Column& x, const Column<double>&
                 for (std::int64_t c = lo[2]; c <= hi[2]; ++c)
                     for (std::int64_t b = lo[1]; b <= hi[1]; ++b) {
                         // Cells along x are contiguous in memory: one run for all of them.
-                        const std::size_t begin = grid.first[static_cast<std::size_t>(grid.index(lo[0], b, c))];
-                        const std::size_t stop = grid.first[static_cast<std::size_t>(grid.index(hi[0], b, c)) + 1];
+                        const std::size_t begin =
+                            grid.first[static_cast<std::size_t>(grid.index(lo[0], b, c))];
+                        const std::size_t stop =
+                            grid.first[static_cast<std::size_t>(grid.index(hi[0], b, c)) + 1];
                         for (std::size_t m = begin; m < stop; ++m) {
                             const auto j = static_cast<std::size_t>(grid.spheres[m]);
                             if (level == own && j <= i) continue;
                             const double reach = radius[i] + radius[j] + skin;
                             if ((x[j] - xi).squaredNorm() < reach * reach)
-                                keys.push_back(std::uint64_t{std::min(i, j)} << 32 | std::max(i, j));
+                                keys.push_back(std::uint64_t{std::min(i, j)} << 32 |
+                                               std::max(i, j));
                         }
                     }
             }

@@ -10,7 +10,9 @@ namespace grainfield::core {
 
 inline constexpr std::size_t chunk_size = 512;
 
-inline std::size_t chunk_count(std::size_t n) { return (n + chunk_size - 1) / chunk_size; }
+inline std::size_t chunk_count(std::size_t n) {
+    return (n + chunk_size - 1) / chunk_size;
+}
 
 /// Calls body(chunk, begin, end) for every chunk of 0..n. Below a few chunks threads cost more
 /// than they bring, and the loop runs in the calling thread.
@@ -22,6 +24,14 @@ void for_chunks(std::size_t n, const Body& body) {
         const std::size_t begin = static_cast<std::size_t>(c) * chunk_size;
         body(static_cast<std::size_t>(c), begin, std::min(n, begin + chunk_size));
     }
+}
+
+/// Calls body(k) for every k of 0..n, each a piece of work worth a thread.
+template <class Body>
+void for_pieces(std::size_t n, const Body& body) {
+    const auto pieces = static_cast<std::ptrdiff_t>(n);
+#pragma omp parallel for schedule(static) if (pieces > 8)
+    for (std::ptrdiff_t k = 0; k < pieces; ++k) body(static_cast<std::size_t>(k));
 }
 
 /// Sum over chunks of body(begin, end), added in the order of the chunks.

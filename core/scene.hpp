@@ -12,19 +12,19 @@ namespace grainfield::core {
 
 /// A plane wall, fixed or moving at a given velocity.
 struct Wall {
-    Vec3 point = Vec3::Zero();        ///< on the plane [m]
-    Vec3 normal = Vec3::UnitY();      ///< unit, towards the spheres [-]
-    Vec3 velocity = Vec3::Zero();     ///< [m/s]
-    double friction_angle = 0;        ///< [rad]
-    double normal_stiffness = 9e8;    ///< k_n of the wall as a body [Pa]
-    double stiffness_ratio = 0.1;     ///< k_s/k_n of the wall [-]
+    Vec3 point = Vec3::Zero();      ///< on the plane [m]
+    Vec3 normal = Vec3::UnitY();    ///< unit, towards the spheres [-]
+    Vec3 velocity = Vec3::Zero();   ///< [m/s]
+    double friction_angle = 0;      ///< [rad]
+    double normal_stiffness = 9e8;  ///< k_n of the wall as a body [Pa]
+    double stiffness_ratio = 0.1;   ///< k_s/k_n of the wall [-]
 };
 
 struct Scene {
     ParticleStore spheres;
     std::vector<Wall> walls;
-    Vec3 gravity = Vec3::Zero();     ///< [m/s2]
-    double stiffness_ratio = 0.1;    ///< k_s/k_n of the spheres [-]
+    Vec3 gravity = Vec3::Zero();   ///< [m/s2]
+    double stiffness_ratio = 0.1;  ///< k_s/k_n of the spheres [-]
     Damping damping;
 };
 

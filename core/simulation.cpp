@@ -17,11 +17,19 @@ bool all_equal(const Column<double>& column) {
     return std::adjacent_find(column.begin(), column.end(), std::not_equal_to<>()) == column.end();
 }
 
-/// Index of the wall whose normal is the axis itself (sign +1: low side), or -1.
-int axis_wall(std::span<const Wall> walls, int axis, double sign) {
-    for (std::size_t w = 0; w < walls.size(); ++w)
-        if (walls[w].normal == sign * Vec3::Unit(axis)) return static_cast<int>(w);
-    return -1;
+/// The low and the high wall that bound a box along an axis; {-1, -1} unless there are just these
+/// two and no other wall's normal has a part along the axis.
+std::array<int, 2> bounding_walls(std::span<const Wall> walls, int axis) {
+    std::array<int, 2> found{-1, -1};
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+        if (walls[w].normal[axis] == 0.0) continue;
+        const std::size_t side = walls[w].normal[axis] > 0.0 ? 0 : 1;
+        const bool along = walls[w].normal == (side == 0 ? 1.0 : -1.0) * Vec3::Unit(axis);
+        if (!along || found[side] >= 0) return {-1, -1};
+        found[side] = static_cast<int>(w);
+    }
+    if (found[0] < 0 || found[1] < 0) return {-1, -1};
+    return found;
 }
 
 }  // namespace
@@ -60,8 +68,12 @@ void Simulation::refresh_properties() {
     planes_.resize(scene_.walls.size());
     for (std::size_t w = 0; w < planes_.size(); ++w) {
         const Wall& wall = scene_.walls[w];
-        planes_[w] = {wall.point, wall.normal, wall.velocity, std::tan(wall.friction_angle),
-                      wall.normal_stiffness, wall.stiffness_ratio};
+        planes_[w] = {wall.point,
+                      wall.normal,
+                      wall.velocity,
+                      std::tan(wall.friction_angle),
+                      wall.normal_stiffness,
+                      wall.stiffness_ratio};
         has_wall_friction_ |= has_friction_ && wall.friction_angle > 0 && wall.stiffness_ratio > 0;
     }
     wall_loads_.resize(planes_.size());
@@ -80,11 +92,11 @@ void Simulation::compute_forces(bool sums) {
     const kernels::ContactColumns pair_columns = contacts_.pair_columns();
     const kernels::ContactParameters parameters{
         scene_.stiffness_ratio, spheres().size() ? spheres().normal_stiffness[0] : 0.0,
-        friction_.empty() ? 0.0 : friction_[0], old_step_};
+        friction_.empty() ? 0.0 : friction_[0], elapsed()};
     const kernels::PairKernel pair_kernel = kernels_->pairs({has_friction_, per_sphere_, sums});
     const auto pairs = contacts_.pairs();
-    contact_sums_ = sum_chunks<kernels::ContactSums>(
-        pairs.size(), [&](std::size_t begin, std::size_t end) {
+    contact_sums_ =
+        sum_chunks<kernels::ContactSums>(pairs.size(), [&](std::size_t begin, std::size_t end) {
             return pair_kernel(s, pairs.data(), pair_columns, parameters, begin, end);
         });
     wall_forces(sums);
@@ -95,6 +107,7 @@ void Simulation::compute_forces(bool sums) {
         kernels::gather_forces(motion_columns(), contacts_.all_columns(), contacts_.offsets(),
                                contacts_.incidences(), motion, motion_features(), begin, end);
     });
+    forces_at_ = steps_;
 }
 
 void Simulation::wall_forces(bool sums) {
@@ -106,28 +119,30 @@ void Simulation::wall_forces(bool sums) {
     const kernels::ContactColumns columns = contacts_.wall_columns();
     const kernels::ContactParameters parameters{
         scene_.stiffness_ratio, spheres().size() ? spheres().normal_stiffness[0] : 0.0,
-        friction_.empty() ? 0.0 : friction_[0], old_step_};
+        friction_.empty() ? 0.0 : friction_[0], elapsed()};
     const kernels::WallKernel kernel = kernels_->walls({has_wall_friction_, per_sphere_, sums});
-    std::vector<kernels::WallLoad> partial(chunk_count(pairs.size()) * planes_.size());
-    std::vector<kernels::ContactSums> partial_sums(chunk_count(pairs.size()));
-    for_chunks(pairs.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
+    // Loads are summed over ranges that do not depend on the skin: servos answer to them.
+    const auto ranges = contacts_.wall_ranges();
+    std::vector<kernels::WallLoad> partial((ranges.size() - 1) * planes_.size());
+    std::vector<kernels::ContactSums> partial_sums(ranges.size() - 1);
+    for_pieces(partial_sums.size(), [&](std::size_t c) {
         partial_sums[c] = kernel(s, planes_.data(), pairs.data(), columns, parameters,
-                                 partial.data() + c * planes_.size(), begin, end);
+                                 partial.data() + c * planes_.size(), ranges[c], ranges[c + 1]);
     });
     for (std::size_t c = 0; c < partial_sums.size(); ++c) {
         contact_sums_ += partial_sums[c];
-        for (std::size_t w = 0; w < planes_.size(); ++w) {
-            const kernels::WallLoad& load = partial[c * planes_.size() + w];
-            wall_loads_[w].force += load.force;
-            wall_loads_[w].stiffness += load.stiffness;
-            wall_loads_[w].contacts += load.contacts;
-        }
+        const auto w = static_cast<std::size_t>(pairs[ranges[c]].wall);
+        const kernels::WallLoad& load = partial[c * planes_.size() + w];
+        wall_loads_[w].force += load.force;
+        wall_loads_[w].stiffness += load.stiffness;
+        wall_loads_[w].contacts += load.contacts;
     }
     // Work of the walls on the spheres over the last step, trapezoidal rule.
-    if (options_.ledger && old_step_ > 0)
+    if (options_.ledger && elapsed() > 0)
         for (std::size_t w = 0; w < planes_.size(); ++w)
-            external_work_ -= 0.5 * old_step_ * planes_[w].velocity.dot(
-                                        wall_loads_[w].force + last_wall_loads_[w].force);
+            external_work_ -=
+                0.5 * elapsed() *
+                planes_[w].velocity.dot(wall_loads_[w].force + last_wall_loads_[w].force);
 }
 
 void Simulation::advance(double step) {
@@ -160,9 +175,8 @@ kernels::AffineMotion Simulation::affine_motion() const {
     const auto& built = contacts_.built_walls();
     if (contacts_.stale()) return motion;
     for (int axis = 0; axis < 3; ++axis) {
-        const int low = axis_wall(walls(), axis, +1.0);
-        const int high = axis_wall(walls(), axis, -1.0);
-        if (low < 0 || high < 0) continue;
+        const auto [low, high] = bounding_walls(walls(), axis);
+        if (low < 0) continue;
         const double a = built[low][axis], b = built[high][axis];
         const double moved_a = scene_.walls[low].point[axis] - a;
         const double moved_b = scene_.walls[high].point[axis] - b;
@@ -179,11 +193,10 @@ double Simulation::unpaired_wall_motion() const {
     for (std::size_t w = 0; w < scene_.walls.size(); ++w) {
         const Wall& wall = scene_.walls[w];
         bool paired = false;
-        for (int axis = 0; axis < 3; ++axis)
-            for (double sign : {1.0, -1.0})
-                paired |= wall.normal == sign * Vec3::Unit(axis) &&
-                          axis_wall(walls(), axis, -sign) >= 0 &&
-                          axis_wall(walls(), axis, sign) == static_cast<int>(w);
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto [low, high] = bounding_walls(walls(), axis);
+            paired |= low == static_cast<int>(w) || high == static_cast<int>(w);
+        }
         if (!paired) motion = std::max(motion, std::abs(wall.normal.dot(wall.point - built[w])));
     }
     return motion;
@@ -204,9 +217,9 @@ bool Simulation::lists_outdated() const {
 
 kernels::SphereColumns Simulation::sphere_columns() const {
     const ParticleStore& s = scene_.spheres;
-    return {s.position.x.data(), s.position.y.data(), s.position.z.data(),
-            s.velocity.x.data(), s.velocity.y.data(), s.velocity.z.data(),
-            s.spin.x.data(),     s.spin.y.data(),     s.spin.z.data(),
+    return {s.position.x.data(), s.position.y.data(),       s.position.z.data(),
+            s.velocity.x.data(), s.velocity.y.data(),       s.velocity.z.data(),
+            s.spin.x.data(),     s.spin.y.data(),           s.spin.z.data(),
             s.radius.data(),     s.normal_stiffness.data(), friction_.data()};
 }
 
@@ -215,12 +228,24 @@ kernels::MotionColumns Simulation::motion_columns() const {
     auto& s = const_cast<ParticleStore&>(scene_.spheres);
     auto& f = const_cast<Vec3Column&>(force_);
     auto& m = const_cast<Vec3Column&>(moment_);
-    return {s.position.x.data(), s.position.y.data(), s.position.z.data(),
-            s.velocity.x.data(), s.velocity.y.data(), s.velocity.z.data(),
-            s.spin.x.data(),     s.spin.y.data(),     s.spin.z.data(),
-            f.x.data(),          f.y.data(),          f.z.data(),
-            m.x.data(),          m.y.data(),          m.z.data(),
-            s.radius.data(),     s.mass.data(),       inverse_inertial_mass_.data(),
+    return {s.position.x.data(),
+            s.position.y.data(),
+            s.position.z.data(),
+            s.velocity.x.data(),
+            s.velocity.y.data(),
+            s.velocity.z.data(),
+            s.spin.x.data(),
+            s.spin.y.data(),
+            s.spin.z.data(),
+            f.x.data(),
+            f.y.data(),
+            f.z.data(),
+            m.x.data(),
+            m.y.data(),
+            m.z.data(),
+            s.radius.data(),
+            s.mass.data(),
+            inverse_inertial_mass_.data(),
             inverse_inertia_.data()};
 }
 

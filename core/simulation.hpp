@@ -49,7 +49,8 @@ class Simulation {
     std::span<const Wall> walls() const { return scene_.walls; }
     const kernels::KernelTable& kernel_table() const { return *kernels_; }
 
-    /// Forces at the present positions. With `sums`, contact_sums() is valid afterwards.
+    /// Forces at the present positions. With `sums`, contact_sums() is valid afterwards. Calling it
+    /// again before the next advance() changes nothing else.
     void compute_forces(bool sums = false);
     /// Moves everything by one step [s] > 0; compute_forces() must have been called.
     void advance(double step);
@@ -78,14 +79,14 @@ class Simulation {
 
     // Steering. All take effect with the next advance() or compute_forces().
     void set_wall_velocity(std::size_t wall, const Vec3& velocity);  ///< [m/s]
-    void set_wall_point(std::size_t wall, const Vec3& point);  ///< shifts a wall at once [m]
+    void set_wall_point(std::size_t wall, const Vec3& point);        ///< shifts a wall at once [m]
     void set_gravity(const Vec3& gravity);                           ///< [m/s2]
     void set_damping(const Damping& damping);
-    void set_friction_angle(double angle);                     ///< of all spheres [rad]
+    void set_friction_angle(double angle);  ///< of all spheres [rad]
     void set_properties(std::span<const double> normal_stiffness,
                         std::span<const double> friction_angle);  ///< [Pa], [rad]
-    void add_velocity(std::size_t i, const Vec3& velocity);           ///< [m/s]
-    void scale_velocities(double factor);                      ///< spins too [-]
+    void add_velocity(std::size_t i, const Vec3& velocity);       ///< [m/s]
+    void scale_velocities(double factor);                         ///< spins too [-]
     void set_walls(std::vector<Wall> walls);  ///< replaces all; history with walls is lost
     /// Inertia of each sphere relative to its real mass (mass scaling), >= 1 [-].
     void set_inertia_scale(std::span<const double> scale);
@@ -111,6 +112,8 @@ class Simulation {
     kernels::MotionParameters motion_parameters(double new_step) const;
     kernels::MotionFeatures motion_features() const;
     void wall_forces(bool sums);
+    /// Motion that the contacts have not seen yet [s].
+    double elapsed() const { return forces_at_ == steps_ ? 0.0 : old_step_; }
 
     Scene scene_;
     const kernels::KernelTable* kernels_;
@@ -131,6 +134,7 @@ class Simulation {
     double max_square_displacement_ = 0;
     double time_ = 0, old_step_ = 0;
     std::int64_t steps_ = 0;
+    std::int64_t forces_at_ = -1;  // steps taken when forces were last computed
 };
 
 }  // namespace grainfield::core

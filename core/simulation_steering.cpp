@@ -18,11 +18,16 @@ void Simulation::set_wall_velocity(std::size_t wall, const Vec3& velocity) {
 void Simulation::set_wall_point(std::size_t wall, const Vec3& point) {
     scene_.walls.at(wall).point = point;
     planes_.at(wall).point = point;
+    max_square_displacement_ = HUGE_VAL;  // unless a step follows, it may have met new spheres
 }
 
-void Simulation::set_gravity(const Vec3& gravity) { scene_.gravity = gravity; }
+void Simulation::set_gravity(const Vec3& gravity) {
+    scene_.gravity = gravity;
+}
 
-void Simulation::set_damping(const Damping& damping) { scene_.damping = damping; }
+void Simulation::set_damping(const Damping& damping) {
+    scene_.damping = damping;
+}
 
 void Simulation::set_friction_angle(double angle) {
     std::fill(scene_.spheres.friction_angle.begin(), scene_.spheres.friction_angle.end(), angle);
@@ -66,24 +71,27 @@ void Simulation::set_inertia_scale(std::span<const double> scale) {
 void Simulation::check_state() const {
     const ParticleStore& s = spheres();
     const auto fail = [&](std::size_t i, const std::string& what) {
-        throw SimulationError(fmt::format("{} (sphere {}, step {}, time {:g} s, at ({:g}, {:g}, {:g}) m)",
-                                          what, i, steps_, time_, s.position.x[i], s.position.y[i],
-                                          s.position.z[i]));
+        throw SimulationError(
+            fmt::format("{} (sphere {}, step {}, time {:g} s, at ({:g}, {:g}, {:g}) m)", what, i,
+                        steps_, time_, s.position.x[i], s.position.y[i], s.position.z[i]));
     };
     for (std::size_t i = 0; i < s.size(); ++i) {
         if (!s.position[i].allFinite() || !s.velocity[i].allFinite() || !s.spin[i].allFinite())
             fail(i, "a position or velocity is not a number");
         if (!(s.velocity[i].norm() * old_step_ < 0.5 * s.radius[i]))
-            fail(i, fmt::format("unstable: a sphere moves {:g} m in a step of {:g} s, more than half its radius",
+            fail(i, fmt::format("unstable: a sphere moves {:g} m in a step of {:g} s, more than "
+                                "half its radius",
                                 s.velocity[i].norm() * old_step_, old_step_));
     }
     const auto pairs = contacts_.pairs();
     for (std::size_t c = 0; c < pairs.size(); ++c) {
         if (!contacts_.touching(c)) continue;
-        const auto i = static_cast<std::size_t>(pairs[c].i), j = static_cast<std::size_t>(pairs[c].j);
+        const auto i = static_cast<std::size_t>(pairs[c].i),
+                   j = static_cast<std::size_t>(pairs[c].j);
         const double overlap = s.radius[i] + s.radius[j] - (s.position[j] - s.position[i]).norm();
         if (!(overlap < 0.5 * std::min(s.radius[i], s.radius[j])))
-            fail(i, fmt::format("an overlap of {:g} m with sphere {} exceeds half a radius", overlap, j));
+            fail(i, fmt::format("an overlap of {:g} m with sphere {} exceeds half a radius",
+                                overlap, j));
     }
     const auto wall_pairs = contacts_.wall_pairs();
     for (std::size_t c = 0; c < wall_pairs.size(); ++c) {
@@ -91,8 +99,10 @@ void Simulation::check_state() const {
         const Wall& wall = scene_.walls[static_cast<std::size_t>(wall_pairs[c].wall)];
         const double overlap = s.radius[i] - wall.normal.dot(s.position[i] - wall.point);
         if (!(overlap < 0.5 * s.radius[i]))
-            fail(i, fmt::format("a sphere is lost: it reaches {:g} m into wall {}, more than half its radius",
-                                overlap, wall_pairs[c].wall));
+            fail(i,
+                 fmt::format(
+                     "a sphere is lost: it reaches {:g} m into wall {}, more than half its radius",
+                     overlap, wall_pairs[c].wall));
     }
 }
 

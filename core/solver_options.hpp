@@ -14,7 +14,8 @@ struct Damping {
 struct TimeOptions {
     std::optional<double> step;  ///< fixed step; unset: safety times the stability limit [s]
     double safety = 0.8;         ///< share of the stability limit 2/omega_max, 0 < safety < 1 [-]
-    double mass_scaling = 1.0;   ///< >= 1; light spheres get the mass that a step this many times larger needs [-]
+    double mass_scaling =
+        1.0;  ///< >= 1; light spheres get the mass that a step this many times larger needs [-]
 };
 
 enum class Isa { automatic, scalar, avx2, avx512 };

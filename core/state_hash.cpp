@@ -16,7 +16,8 @@ class Hasher {
 
     void add(const void* data, std::size_t bytes) { XXH3_64bits_update(state_, data, bytes); }
     void add(const Vec3Column& v) {
-        for (const Column<double>* c : {&v.x, &v.y, &v.z}) add(c->data(), c->size() * sizeof(double));
+        for (const Column<double>* c : {&v.x, &v.y, &v.z})
+            add(c->data(), c->size() * sizeof(double));
     }
     void add(const Vec3& v) { add(v.data(), 3 * sizeof(double)); }
     std::string digest() const { return fmt::format("{:016x}", XXH3_64bits_digest(state_)); }

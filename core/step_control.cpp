@@ -9,7 +9,9 @@ namespace {
 
 /// Steps between two estimates. A contact that forms takes several steps to matter, and safety
 /// leaves room for one more spring on the worst sphere.
-std::int64_t estimate_interval(std::size_t spheres) { return spheres > 20000 ? 100 : 20; }
+std::int64_t estimate_interval(std::size_t spheres) {
+    return spheres > 20000 ? 100 : 20;
+}
 
 constexpr int full_rounds = 5;    // of Lanczos, from scratch
 constexpr int update_rounds = 1;  // starting from the last mode
@@ -38,7 +40,9 @@ void StepControl::scale_masses(Simulation& simulation) {
     std::vector<double> scale(n, 1.0);
     simulation.set_inertia_scale(scale);
     omega_target_ = frequency(simulation, full_rounds) / options_.mass_scaling;
-    const std::vector<double> local = local_square_frequencies(simulation);
+    std::vector<double> local = local_square_frequencies(simulation);
+    const std::vector<double> isolated = isolated_square_frequencies(simulation);
+    for (std::size_t i = 0; i < n; ++i) local[i] = std::max(local[i], isolated[i]);
     // A mode of the network is up to sqrt(2) faster than a sphere between fixed neighbours: find
     // the smallest margin that brings the scaled network under the target.
     for (double margin = 1.0; margin < 3.0; margin *= 1.1) {

@@ -34,8 +34,8 @@ class StepControl {
 
     TimeOptions options_;
     FrequencyEstimator estimator_;
-    double omega_ = 0;        // with the inertia in use [rad/s]
-    double omega_target_ = 0; // mass scaling: what the scaled network may have [rad/s]
+    double omega_ = 0;         // with the inertia in use [rad/s]
+    double omega_target_ = 0;  // mass scaling: what the scaled network may have [rad/s]
     double inertia_ratio_ = 1;
     double step_ = 0;
     std::int64_t next_estimate_ = -1;

@@ -15,12 +15,12 @@ namespace grainfield::kernels {
 
 /// Columns of the spheres that the kernels read; all of length `size`.
 struct SphereColumns {
-    const double *x, *y, *z;           ///< centres [m]
-    const double *vx, *vy, *vz;        ///< velocity in the middle of the last step [m/s]
-    const double *wx, *wy, *wz;        ///< spin in the middle of the last step [rad/s]
-    const double* radius;              ///< [m]
-    const double* normal_stiffness;    ///< k_n [Pa]
-    const double* friction;            ///< tan(phi) [-]
+    const double *x, *y, *z;         ///< centres [m]
+    const double *vx, *vy, *vz;      ///< velocity in the middle of the last step [m/s]
+    const double *wx, *wy, *wz;      ///< spin in the middle of the last step [rad/s]
+    const double* radius;            ///< [m]
+    const double* normal_stiffness;  ///< k_n [Pa]
+    const double* friction;          ///< tan(phi) [-]
 };
 
 /// Two candidates for a contact, i < j.
@@ -56,10 +56,10 @@ struct ContactColumns {
 };
 
 struct ContactParameters {
-    double stiffness_ratio;     ///< k_s/k_n of the spheres [-]
-    double uniform_stiffness;   ///< k_n of all spheres where it is the same [Pa]
-    double uniform_friction;    ///< tan(phi) of all spheres where it is the same [-]
-    double step;                ///< time since the last force evaluation; 0 at the first [s]
+    double stiffness_ratio;    ///< k_s/k_n of the spheres [-]
+    double uniform_stiffness;  ///< k_n of all spheres where it is the same [Pa]
+    double uniform_friction;   ///< tan(phi) of all spheres where it is the same [-]
+    double step;               ///< time since the last force evaluation; 0 at the first [s]
 };
 
 /// What a scene has; a kernel is compiled for each combination, and a term that is absent costs

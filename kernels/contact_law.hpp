@@ -22,9 +22,10 @@ class Rotation {
     explicit Rotation(const Vec3& rotation_vector) {
         const double angle2 = rotation_vector.squaredNorm();
         // tan(a/2)/a by its series below 1e-2 rad: the next term is under 1e-12 of the first.
-        const double scale = angle2 < 1e-4 ? 0.5 + angle2 * (1.0 / 24.0 + angle2 * (1.0 / 240.0 +
-                                                   angle2 * (17.0 / 40320.0)))
-                                           : std::tan(0.5 * std::sqrt(angle2)) / std::sqrt(angle2);
+        const double scale =
+            angle2 < 1e-4
+                ? 0.5 + angle2 * (1.0 / 24.0 + angle2 * (1.0 / 240.0 + angle2 * (17.0 / 40320.0)))
+                : std::tan(0.5 * std::sqrt(angle2)) / std::sqrt(angle2);
         t_ = scale * rotation_vector;
         factor_ = 2.0 / (1.0 + t_.squaredNorm());
     }
@@ -65,8 +66,10 @@ inline TangentialMotion sphere_motion(const Vec3& normal0, const Vec3& normal, d
                                       const Vec3& shear, double step) {
     const double reach = radius_i + radius_j;
     const Vec3 rolling = (radius_i * spin_i + radius_j * spin_j) / reach;
-    const double twist = (0.5 * (spin_i + spin_j) - rolling).dot(normal0);
-    const Rotation frame(step * (rolling + twist * normal0));
+    // The twist is about the mean of both normals: a step undone leaves nothing behind, exactly.
+    const Vec3 middle = normal0 + normal;
+    const double twist = (0.5 * (spin_i + spin_j) - rolling).dot(middle) / middle.squaredNorm();
+    const Rotation frame(step * (rolling + twist * middle));
     const Vec3 material = frame * normal0;  // the normal as the spheres' spins carry it
     Vec3 u = reach * (normal - material);
     u -= u.dot(normal) * normal;

@@ -23,7 +23,8 @@ inline double damping_sign(double undamped, double limit, double load) {
 
 /// The part of the load that damping takes away: alpha |F| sign(v). It acts an axis at a time and
 /// is therefore not objective: a sample turned by 45 degrees is damped differently.
-inline double damping_force(double load, double alpha, double velocity, double half_old_step_over_mass) {
+inline double damping_force(double load, double alpha, double velocity,
+                            double half_old_step_over_mass) {
     const double taken = alpha * std::abs(load);
     return taken * damping_sign(velocity + half_old_step_over_mass * load,
                                 half_old_step_over_mass * taken, load);

@@ -55,10 +55,11 @@ ContactSums pair_forces(const SphereColumns& s, const Pair* pairs, ContactColumn
         if (distance2 >= reach * reach) {
             if (contacts.touching[c]) {
                 if constexpr (Sums && Friction) {
-                    const double k = p.stiffness_ratio *
-                                     contact_stiffness(0.5 * reach,
-                                                       PerSphere ? s.normal_stiffness[i] : p.uniform_stiffness,
-                                                       PerSphere ? s.normal_stiffness[j] : p.uniform_stiffness);
+                    const double k =
+                        p.stiffness_ratio *
+                        contact_stiffness(0.5 * reach,
+                                          PerSphere ? s.normal_stiffness[i] : p.uniform_stiffness,
+                                          PerSphere ? s.normal_stiffness[j] : p.uniform_stiffness);
                     sums.friction_work += 0.5 * contacts.shear[c].squaredNorm() / k;
                 }
                 open_contact<Friction>(contacts, c);
@@ -69,9 +70,9 @@ ContactSums pair_forces(const SphereColumns& s, const Pair* pairs, ContactColumn
         const Vec3 normal = branch / distance;
         const double overlap = reach - distance;
         // Eq. (4) with r the mean radius, Eq. (5).
-        const double kn = contact_stiffness(0.5 * reach,
-                                            PerSphere ? s.normal_stiffness[i] : p.uniform_stiffness,
-                                            PerSphere ? s.normal_stiffness[j] : p.uniform_stiffness);
+        const double kn =
+            contact_stiffness(0.5 * reach, PerSphere ? s.normal_stiffness[i] : p.uniform_stiffness,
+                              PerSphere ? s.normal_stiffness[j] : p.uniform_stiffness);
         const double fn = kn * overlap;  // Eq. (3a)
         Vec3 force = -fn * normal;
         if constexpr (Friction) {
@@ -113,8 +114,7 @@ ContactSums wall_forces(const SphereColumns& s, const PlaneWall* walls, const Wa
     for (std::size_t c = begin; c < end; ++c) {
         const auto [w, i] = pairs[c];
         const PlaneWall& wall = walls[w];
-        const double overlap =
-            s.radius[i] - wall.normal.dot(at(s.x, s.y, s.z, i) - wall.point);
+        const double overlap = s.radius[i] - wall.normal.dot(at(s.x, s.y, s.z, i) - wall.point);
         const double k = PerSphere ? s.normal_stiffness[i] : p.uniform_stiffness;
         // The wall counts as a body with its own k; r is the sphere's radius. K_s of Eq. (4b) from
         // k_s = (k_s/k_n) k_n of each body.
@@ -137,9 +137,8 @@ ContactSums wall_forces(const SphereColumns& s, const PlaneWall* walls, const Wa
         if constexpr (Friction) {
             const Vec3 outward = -wall.normal;
             const Vec3 velocity = wall.velocity - at(s.vx, s.vy, s.vz, i);
-            const TangentialMotion motion = plane_motion(outward, s.radius[i], velocity,
-                                                         at(s.wx, s.wy, s.wz, i),
-                                                         contacts.shear[c], p.step);
+            const TangentialMotion motion = plane_motion(
+                outward, s.radius[i], velocity, at(s.wx, s.wy, s.wz, i), contacts.shear[c], p.step);
             const double friction =
                 std::min(PerSphere ? s.friction[i] : p.uniform_friction, wall.friction);
             const double gap0 = p.step * velocity.dot(wall.normal) - overlap;
@@ -173,11 +172,13 @@ WallKernel pick_walls(bool sums) {
 }
 
 PairKernel choose_pairs(ContactFeatures f) {
-    if (f.friction) return f.per_sphere ? pick_pairs<true, true>(f.sums) : pick_pairs<true, false>(f.sums);
+    if (f.friction)
+        return f.per_sphere ? pick_pairs<true, true>(f.sums) : pick_pairs<true, false>(f.sums);
     return f.per_sphere ? pick_pairs<false, true>(f.sums) : pick_pairs<false, false>(f.sums);
 }
 WallKernel choose_walls(ContactFeatures f) {
-    if (f.friction) return f.per_sphere ? pick_walls<true, true>(f.sums) : pick_walls<true, false>(f.sums);
+    if (f.friction)
+        return f.per_sphere ? pick_walls<true, true>(f.sums) : pick_walls<true, false>(f.sums);
     return f.per_sphere ? pick_walls<false, true>(f.sums) : pick_walls<false, false>(f.sums);
 }
 
@@ -185,6 +186,8 @@ constexpr KernelTable table{"scalar", "double", choose_pairs, choose_walls};
 
 }  // namespace
 
-const KernelTable& reference_kernels() { return table; }
+const KernelTable& reference_kernels() {
+    return table;
+}
 
 }  // namespace grainfield::kernels

@@ -11,14 +11,16 @@ namespace {
 
 /// Acceleration at time n of one degree of freedom, damping included.
 template <bool Damping>
-double acceleration(double load, double velocity, double inverse_mass, double alpha, double old_step) {
-    if constexpr (Damping) load -= damping_force(load, alpha, velocity, 0.5 * old_step * inverse_mass);
+double acceleration(double load, double velocity, double inverse_mass, double alpha,
+                    double old_step) {
+    if constexpr (Damping)
+        load -= damping_force(load, alpha, velocity, 0.5 * old_step * inverse_mass);
     return load * inverse_mass;
 }
 
 /// Work of the damping of one degree of freedom over `half_motion` = half a step of its velocity.
-double damping_work(double load, double velocity, double inverse_mass, double alpha, double old_step,
-                    double half_motion) {
+double damping_work(double load, double velocity, double inverse_mass, double alpha,
+                    double old_step, double half_motion) {
     return damping_force(load, alpha, velocity, 0.5 * old_step * inverse_mass) * half_motion;
 }
 
@@ -49,7 +51,8 @@ void gather(const MotionColumns& s, const ContactColumns& contacts, const std::u
 }
 
 template <bool Damping, bool Rotation, bool Ledger>
-MotionSums move(const MotionColumns& s, const MotionParameters& p, std::size_t begin, std::size_t end) {
+MotionSums move(const MotionColumns& s, const MotionParameters& p, std::size_t begin,
+                std::size_t end) {
     MotionSums sums;
     const double mean_step = 0.5 * (p.old_step + p.new_step);
     const auto kick = [&](double load, double& velocity, double inverse_mass, double alpha) {
@@ -89,14 +92,19 @@ MotionSums move(const MotionColumns& s, const MotionParameters& p, std::size_t b
 
 void gather_forces(const MotionColumns& s, const ContactColumns& contacts,
                    const std::uint32_t* offsets, const Incidence* incidences,
-                   const MotionParameters& p, MotionFeatures f, std::size_t begin, std::size_t end) {
-    (f.rotation ? gather<true> : gather<false>)(s, contacts, offsets, incidences, p, f.gravity, begin, end);
+                   const MotionParameters& p, MotionFeatures f, std::size_t begin,
+                   std::size_t end) {
+    (f.rotation ? gather<true> : gather<false>)(s, contacts, offsets, incidences, p, f.gravity,
+                                                begin, end);
 }
 
 MotionSums move_spheres(const MotionColumns& s, const MotionParameters& p, MotionFeatures f,
                         std::size_t begin, std::size_t end) {
-    if (!f.damping) return (f.rotation ? move<false, true, false> : move<false, false, false>)(s, p, begin, end);
-    if (f.ledger) return (f.rotation ? move<true, true, true> : move<true, false, true>)(s, p, begin, end);
+    if (!f.damping)
+        return (f.rotation ? move<false, true, false> : move<false, false, false>)(s, p, begin,
+                                                                                   end);
+    if (f.ledger)
+        return (f.rotation ? move<true, true, true> : move<true, false, true>)(s, p, begin, end);
     return (f.rotation ? move<true, true, false> : move<true, false, false>)(s, p, begin, end);
 }
 

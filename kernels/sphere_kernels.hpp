@@ -19,13 +19,13 @@ using Incidence = std::uint32_t;
 
 /// Mutable columns of the spheres that moving them touches.
 struct MotionColumns {
-    double *x, *y, *z;           ///< centres [m]
-    double *vx, *vy, *vz;        ///< mid-step velocity [m/s]
-    double *wx, *wy, *wz;        ///< mid-step spin [rad/s]
-    double *fx, *fy, *fz;        ///< resultant force, gravity included [N]
-    double *mx, *my, *mz;        ///< resultant moment [N m]
-    const double* radius;        ///< [m]
-    const double* mass;          ///< gravitational mass [kg]
+    double *x, *y, *z;                    ///< centres [m]
+    double *vx, *vy, *vz;                 ///< mid-step velocity [m/s]
+    double *wx, *wy, *wz;                 ///< mid-step spin [rad/s]
+    double *fx, *fy, *fz;                 ///< resultant force, gravity included [N]
+    double *mx, *my, *mz;                 ///< resultant moment [N m]
+    const double* radius;                 ///< [m]
+    const double* mass;                   ///< gravitational mass [kg]
     const double* inverse_inertial_mass;  ///< of the motion; differs from 1/mass if scaled [1/kg]
     const double* inverse_inertia;        ///< of the spin [1/(kg m2)]
 };
@@ -60,11 +60,11 @@ struct MotionSums {
 
 /// Sums of the state at time n, velocities brought to n.
 struct StateSums {
-    double kinetic = 0;           ///< of translation [J]
-    double rotational = 0;        ///< [J]
-    double potential = 0;         ///< -m g.x [J]
-    double half_step_damping = 0; ///< damping work of the half step before n [J]
-    double resultant = 0;         ///< sum of |resultant force| [N]
+    double kinetic = 0;            ///< of translation [J]
+    double rotational = 0;         ///< [J]
+    double potential = 0;          ///< -m g.x [J]
+    double half_step_damping = 0;  ///< damping work of the half step before n [J]
+    double resultant = 0;          ///< sum of |resultant force| [N]
 
     StateSums& operator+=(const StateSums& o) {
         kinetic += o.kinetic;

@@ -24,6 +24,7 @@ constexpr double lid_stress_share = 1.0;      // lid stress over the block's own
 constexpr double stalled = 2e-3;              // a bout that lowers the lid less, of b_y [-]
 constexpr double friction_factor = 0.7;       // the friction angle goes down by this when stalled
 constexpr double lowest_friction = 2e-3;      // below this: none [rad]
+constexpr double porosity_tolerance = 2e-3;   // of the block [-]
 constexpr double rest = 1e-3;                 // unbalanced force ratio of a settled state [-]
 
 /// A wall deforms like half of the contact with a mirror image: infinitely stiff, it gives the
@@ -65,9 +66,11 @@ class BlockPacker {
                 driver_.monitor().progress(-1, simulation_.steps(),
                                            fmt::format("unbalanced force ratio {:.2g}", ratio));
             if (simulation_.time() > deadline)
-                throw SimulationError(fmt::format(
-                    "the block does not come to rest: unbalanced force ratio {:.2g}, mean speed {:.2g} m/s "
-                    "after 30 s", ratio, speed));
+                driver_.fail(
+                    fmt::format("the block does not come to rest: unbalanced force ratio {:.2g}, "
+                                "mean speed {:.2g} m/s "
+                                "after 30 s",
+                                ratio, speed));
         } while (ratio > rest || speed > negligible);
         simulation_.compute_forces(true);
     }
@@ -83,9 +86,11 @@ class BlockPacker {
         ++bouts_;
         while (simulation_.time() < start + bout) {
             driver_.step(false, [&](double step) {
-                const double angle = 2 * std::numbers::pi * shaking_frequency * (simulation_.time() - start);
+                const double angle =
+                    2 * std::numbers::pi * shaking_frequency * (simulation_.time() - start);
                 const double a = shaking_acceleration * options_.gravity;
-                simulation_.set_gravity(gravity() + Vec3(a * std::sin(angle + phase_x), 0.5 * a * std::sin(2 * angle),
+                simulation_.set_gravity(gravity() + Vec3(a * std::sin(angle + phase_x),
+                                                         0.5 * a * std::sin(2 * angle),
                                                          a * std::sin(angle + phase_z)));
                 servo.steer(simulation_, area, step);
                 const double down = -simulation_.walls()[lid].velocity.y();
@@ -97,11 +102,13 @@ class BlockPacker {
 
     double lid_height() const { return simulation_.walls()[lid].point.y(); }
     double porosity(double height) const {
-        return 1 - simulation_.spheres().solid_volume() / (options_.block.x() * options_.block.z() * height);
+        return 1 - simulation_.spheres().solid_volume() /
+                       (options_.block.x() * options_.block.z() * height);
     }
     /// Mean stress at mid-height of a block under its own weight [Pa].
     double own_stress() const {
-        return 0.5 * bulk_unit_weight(material_, options_.porosity, options_.gravity) * options_.block.y();
+        return 0.5 * bulk_unit_weight(material_, options_.porosity, options_.gravity) *
+               options_.block.y();
     }
     double mean_stress() const {
         return core::mean_stress(simulation_, options_.block.prod()).trace() / 3;
@@ -109,7 +116,8 @@ class BlockPacker {
     double top_of_bed() const {
         double top = 0;
         for (std::size_t i = 0; i < simulation_.spheres().size(); ++i)
-            top = std::max(top, simulation_.spheres().position.y[i] + simulation_.spheres().radius[i]);
+            top = std::max(top,
+                           simulation_.spheres().position.y[i] + simulation_.spheres().radius[i]);
         return top;
     }
     core::Simulation& simulation() { return simulation_; }
@@ -152,15 +160,17 @@ double bulk_unit_weight(const Material& material, double porosity, double gravit
 Block pack_block(const PackingOptions& options, const Grading& grading, const Material& material,
                  core::Monitor& monitor) {
     Block block;
-    block.grading = draw_diameters(grading, (1 - options.porosity) * options.block.prod(), options.seed,
-                                   options.spheres);
+    block.grading = draw_diameters(grading, (1 - options.porosity) * options.block.prod(),
+                                   options.seed, options.spheres);
     const std::size_t n = block.grading.diameter.size();
     core::Scene scene;
     scene.spheres.resize(n);
     for (std::size_t i = 0; i < n; ++i) scene.spheres.radius[i] = 0.5 * block.grading.diameter[i];
     scene.spheres.set_density(material.density);
-    std::fill(scene.spheres.normal_stiffness.begin(), scene.spheres.normal_stiffness.end(), material.normal_stiffness);
-    std::fill(scene.spheres.friction_angle.begin(), scene.spheres.friction_angle.end(), material.friction_angle);
+    std::fill(scene.spheres.normal_stiffness.begin(), scene.spheres.normal_stiffness.end(),
+              material.normal_stiffness);
+    std::fill(scene.spheres.friction_angle.begin(), scene.spheres.friction_angle.end(),
+              material.friction_angle);
     scene.stiffness_ratio = material.stiffness_ratio;
     scene.damping = material.damping;
     const double height = place_at_random(scene.spheres, options.block.x(), options.block.z(),
@@ -169,12 +179,20 @@ Block pack_block(const PackingOptions& options, const Grading& grading, const Ma
     wall.friction_angle = material.wall_friction_angle;
     wall.normal_stiffness = mirror_stiffness_factor * material.normal_stiffness;
     wall.stiffness_ratio = material.wall_stiffness_ratio;
-    scene.walls = core::box_walls({Vec3::Zero(), {options.block.x(), height, options.block.z()}}, wall);
+    scene.walls =
+        core::box_walls({Vec3::Zero(), {options.block.x(), height, options.block.z()}}, wall);
 
     BlockPacker packer(options, material, std::move(scene), height, monitor);
     packer.settle("settling one block");
     block.settled_height = packer.top_of_bed();
     core::Simulation& simulation = packer.simulation();
+    if (const double settled = packer.porosity(block.settled_height);
+        settled < options.porosity - porosity_tolerance)
+        throw InputError(
+            fmt::format("packing.porosity = {:g}: cannot be reached with this grading and block; "
+                        "under gravity alone it settles at "
+                        "{:.4f}",
+                        options.porosity, settled));
     simulation.set_wall_point(lid, Vec3(0, std::max(block.settled_height, options.block.y()), 0));
 
     monitor.begin("compacting the block");
@@ -187,14 +205,17 @@ Block pack_block(const PackingOptions& options, const Grading& grading, const Ma
         const double before = packer.lid_height();
         packer.shake(friction);
         const double now = packer.lid_height();
-        monitor.progress(-1, simulation.steps(),
-                         fmt::format("porosity {:.4f}, friction {:.3f} rad", packer.porosity(now), friction));
+        monitor.progress(
+            -1, simulation.steps(),
+            fmt::format("porosity {:.4f}, friction {:.3f} rad", packer.porosity(now), friction));
         if (now > options.block.y()) {
             if (before - now < stalled * options.block.y()) {
                 if (friction == 0.0)
-                    throw InputError(fmt::format(
-                        "packing.porosity = {:g}: cannot be reached with this grading and block; shaking without "
-                        "friction ended at {:.4f}", options.porosity, packer.porosity(now)));
+                    throw InputError(
+                        fmt::format("packing.porosity = {:g}: cannot be reached with this grading "
+                                    "and block; shaking without "
+                                    "friction ended at {:.4f}",
+                                    options.porosity, packer.porosity(now)));
                 lower_friction();
             }
             continue;
@@ -204,9 +225,11 @@ Block pack_block(const PackingOptions& options, const Grading& grading, const Ma
         block.mean_stress = packer.mean_stress();
         if (block.mean_stress <= limit) break;
         if (friction == 0.0 && ++failed_at_rest > 20)
-            throw InputError(fmt::format(
-                "packing.porosity = {:g}: cannot be reached without stress with this grading and block; it holds "
-                "{:.3g} Pa, allowed is {:.3g} Pa", options.porosity, block.mean_stress, limit));
+            throw InputError(
+                fmt::format("packing.porosity = {:g}: cannot be reached without stress with this "
+                            "grading and block; it holds "
+                            "{:.3g} Pa, allowed is {:.3g} Pa",
+                            options.porosity, block.mean_stress, limit));
         lower_friction();
     }
     block.compaction_friction_angle = friction;

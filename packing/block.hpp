@@ -14,21 +14,21 @@ namespace grainfield::packing {
 
 /// What the spheres are made of during the packing (Table 2).
 struct Material {
-    double density = 2600;               ///< [kg/m3]
-    double normal_stiffness = 9e8;       ///< k_n [Pa]
-    double stiffness_ratio = 0.1;        ///< k_s/k_n [-]
-    double friction_angle = 0.6;         ///< phi [rad]
-    core::Damping damping{0.2, 0.2};     ///< local [-]
-    double wall_friction_angle = 0;      ///< [rad]
-    double wall_stiffness_ratio = 0.2;   ///< k_s/k_n of the box [-]
+    double density = 2600;              ///< [kg/m3]
+    double normal_stiffness = 9e8;      ///< k_n [Pa]
+    double stiffness_ratio = 0.1;       ///< k_s/k_n [-]
+    double friction_angle = 0.6;        ///< phi [rad]
+    core::Damping damping{0.2, 0.2};    ///< local [-]
+    double wall_friction_angle = 0;     ///< [rad]
+    double wall_stiffness_ratio = 0.2;  ///< k_s/k_n of the box [-]
 };
 
 /// Bulk weight of a packing [N/m3].
 double bulk_unit_weight(const Material& material, double porosity, double gravity);
 
 struct Block {
-    core::ParticleStore spheres;   ///< at rest in [0, b_x] x [0, b_y] x [0, b_z]
-    core::ParticleStore hanging;   ///< the same spheres at rest under gravity reversed
+    core::ParticleStore spheres;  ///< at rest in [0, b_x] x [0, b_y] x [0, b_z]
+    core::ParticleStore hanging;  ///< the same spheres at rest under gravity reversed
     GradingDraw grading;
     double porosity = 0;                   ///< [-]
     double settled_height = 0;             ///< of the bed before compaction [m]

@@ -14,7 +14,8 @@ namespace {
 
 constexpr int attempts_a_sphere = 2000;
 
-bool fits(const core::ParticleStore& s, const std::vector<std::size_t>& placed, const Vec3& x, double r) {
+bool fits(const core::ParticleStore& s, const std::vector<std::size_t>& placed, const Vec3& x,
+          double r) {
     return std::none_of(placed.begin(), placed.end(), [&](std::size_t j) {
         const double reach = r + s.radius[j];
         return (s.position[j] - x).squaredNorm() < reach * reach;
@@ -32,9 +33,11 @@ double place_at_random(core::ParticleStore& spheres, double width, double depth,
         return spheres.radius[a] > spheres.radius[b];
     });
     if (!order.empty() && 2 * spheres.radius[order[0]] > std::min(width, depth))
-        throw InputError(fmt::format(
-            "packing.block: a sphere of diameter {:g} m does not fit into a block {:g} m x {:g} m wide; "
-            "give a larger block or a finer grading", 2 * spheres.radius[order[0]], width, depth));
+        throw InputError(
+            fmt::format("packing.block: a sphere of diameter {:g} m does not fit into a block {:g} "
+                        "m x {:g} m wide; "
+                        "give a larger block or a finer grading",
+                        2 * spheres.radius[order[0]], width, depth));
     std::vector<std::size_t> placed;
     std::uint64_t counter = 0;
     for (std::size_t i : order) {
@@ -43,7 +46,8 @@ double place_at_random(core::ParticleStore& spheres, double width, double depth,
         for (int attempt = 1;; ++attempt) {
             const auto [u, v] = stream.uniform_pair(0, counter++);
             const double w = stream.uniform(0, counter++);
-            const Vec3 x(r + u * (width - 2 * r), r + v * (height - 2 * r), r + w * (depth - 2 * r));
+            const Vec3 x(r + u * (width - 2 * r), r + v * (height - 2 * r),
+                         r + w * (depth - 2 * r));
             if (fits(spheres, placed, x, r)) {
                 spheres.position.set(i, x);
                 placed.push_back(i);

@@ -7,7 +7,8 @@
 namespace grainfield::packing {
 namespace {
 
-void copy_sphere(const core::ParticleStore& from, std::size_t i, core::ParticleStore& to, std::size_t k) {
+void copy_sphere(const core::ParticleStore& from, std::size_t i, core::ParticleStore& to,
+                 std::size_t k) {
     to.position.set(k, from.position[i]);
     to.velocity.set(k, from.velocity[i]);
     to.spin.set(k, from.spin[i]);
@@ -61,12 +62,14 @@ std::vector<std::size_t> order_in_space(const core::ParticleStore& block, const 
     std::vector<std::size_t> order(block.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return morton(block.position[a].cwiseQuotient(size)) < morton(block.position[b].cwiseQuotient(size));
+        return morton(block.position[a].cwiseQuotient(size)) <
+               morton(block.position[b].cwiseQuotient(size));
     });
     return order;
 }
 
-core::ParticleStore reordered(const core::ParticleStore& spheres, const std::vector<std::size_t>& order) {
+core::ParticleStore reordered(const core::ParticleStore& spheres,
+                              const std::vector<std::size_t>& order) {
     core::ParticleStore result;
     result.resize(order.size());
     for (std::size_t k = 0; k < order.size(); ++k) copy_sphere(spheres, order[k], result, k);

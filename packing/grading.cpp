@@ -78,12 +78,14 @@ GradingDraw draw_diameters(const Grading& grading, double target_volume, std::ui
         return worst;
     };
     // The volume of n stratified grains grows with n but for small jumps of the largest.
-    const double expected = target_volume / (std::numbers::pi / 6 * distribution.mean_cube(0.0, 1.0));
+    const double expected =
+        target_volume / (std::numbers::pi / 6 * distribution.mean_cube(0.0, 1.0));
     const auto count_for_volume = [&](std::uint64_t attempt) {
         double best = HUGE_VAL;
         std::int32_t n = 1;
         const auto last = static_cast<std::int32_t>(std::ceil(2.5 * expected)) + 4;
-        for (std::int32_t k = std::max(1, static_cast<std::int32_t>(0.3 * expected)); k <= last; ++k) {
+        for (std::int32_t k = std::max(1, static_cast<std::int32_t>(0.3 * expected)); k <= last;
+             ++k) {
             const double miss = std::abs(volume(draw(attempt, k)) - target_volume);
             if (miss >= best) continue;
             best = miss;

@@ -21,10 +21,10 @@ class NumberDistribution {
 
   private:
     struct Segment {
-        double d0, d1;   // sieves [m]
-        double slope;    // of the passing share by mass [1/m]
-        double u0, u1;   // cumulative shares by number [-]
-        double mass0;    // passing share by mass at d0 [-]
+        double d0, d1;  // sieves [m]
+        double slope;   // of the passing share by mass [1/m]
+        double u0, u1;  // cumulative shares by number [-]
+        double mass0;   // passing share by mass at d0 [-]
     };
     double mass_share(double u) const;
 

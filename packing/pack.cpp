@@ -52,7 +52,8 @@ Packing pack(const PackingOptions& options, const Grading& grading, const Materi
     const Vec3 size(options.block.x() * options.blocks[0], options.block.y() * options.blocks[1],
                     options.block.z() * options.blocks[2]);
     core::Scene scene;
-    scene.spheres = flip(packing.block.spheres, packing.block.hanging, options.block, options.blocks);
+    scene.spheres =
+        flip(packing.block.spheres, packing.block.hanging, options.block, options.blocks);
     scene.stiffness_ratio = material.stiffness_ratio;
     scene.damping = material.damping;
     scene.walls = core::box_walls({Vec3::Zero(), size}, box_wall(material));
@@ -62,10 +63,12 @@ Packing pack(const PackingOptions& options, const Grading& grading, const Materi
     monitor.begin("settling the sample under gravity");
     settle_under_gravity(driver, 2, options.gravity, size.y());
 
-    packing.box = {Vec3::Zero(), Vec3(size.x(), core::bounding_box(simulation.spheres()).upper.y(), size.z())};
+    packing.box = {Vec3::Zero(),
+                   Vec3(size.x(), core::bounding_box(simulation.spheres()).upper.y(), size.z())};
     const double base = size.x() * size.z();
-    packing.profile = measure_stress_profile(simulation, packing.box.upper.y(), base, options.gravity,
-                                             options.blocks[1] > 4 ? options.blocks[1] : 4);
+    packing.profile =
+        measure_stress_profile(simulation, packing.box.upper.y(), base, options.gravity,
+                               options.blocks[1] > 4 ? options.blocks[1] : 4);
     packing.fabric = core::measure_fabric(simulation);
     packing.settling_seconds = watch.lap();
 

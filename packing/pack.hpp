@@ -12,16 +12,16 @@ namespace grainfield::packing {
 
 /// A sample with all that is known about how it was made.
 struct Packing {
-    core::ParticleStore spheres;       ///< at rest
-    core::Box box;                     ///< walls at the sides and below; top of the spheres above
+    core::ParticleStore spheres;  ///< at rest
+    core::Box box;                ///< walls at the sides and below; top of the spheres above
     PackingOptions options;
-    Grading grading;                   ///< target
-    Block block;                       ///< phase 1
-    double porosity = 0;               ///< of the sample in its box [-]
+    Grading grading;      ///< target
+    Block block;          ///< phase 1
+    double porosity = 0;  ///< of the sample in its box [-]
     core::Fabric fabric;
-    StressProfile profile;             ///< of the sample settled under gravity
-    double isotropic_stress = 0;       ///< the sample is held at, without gravity; 0: settled [Pa]
-    std::int64_t steps = 0;            ///< of settling the sample [-]
+    StressProfile profile;        ///< of the sample settled under gravity
+    double isotropic_stress = 0;  ///< the sample is held at, without gravity; 0: settled [Pa]
+    std::int64_t steps = 0;       ///< of settling the sample [-]
     double block_seconds = 0, settling_seconds = 0, isotropic_seconds = 0;  ///< wall time [s]
     std::string state_hash;
 };

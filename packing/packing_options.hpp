@@ -13,7 +13,7 @@ namespace grainfield::packing {
 /// Sieve curve by mass (Table 1), linear in the diameter between sieves.
 struct Grading {
     std::vector<double> sieve_diameter{0.010, 0.020, 0.040, 0.100, 0.160, 0.200};  ///< [m]
-    std::vector<double> passing{0, 0, 31.47, 90.93, 99.64, 100};  ///< by mass [%]
+    std::vector<double> passing{0, 0, 31.47, 90.93, 99.64, 100};                   ///< by mass [%]
 
     /// Throws InputError naming the key and value: sieves ascending and positive, passing
     /// non-decreasing from 0 to 100, as many of one as of the other, at least two.

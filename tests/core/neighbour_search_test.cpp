@@ -70,7 +70,7 @@ TEST(NeighbourSearch, RandomEqualSpheres) {
 
 TEST(NeighbourSearch, TwentyToOneInSize) {
     Cloud cloud;
-    for (std::uint64_t i = 0; i < 1500; ++i) cloud.add(random_vec(i), mixed_radius(i));
+    for (std::uint64_t i = 0; i < 1500; ++i) cloud.add(0.6 * random_vec(i), mixed_radius(i));
     expect_same(cloud, "20:1");
     EXPECT_GT(all_pairs(cloud, 0.0).size(), 1500u);
 }

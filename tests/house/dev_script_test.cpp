@@ -130,7 +130,7 @@ TEST_F(DevScript, CiRunsUnitsThenSanitizersThenTheLongTests) {
     EXPECT_EQ(calls(),
               "cmake --preset release\ncmake --build --preset release -j\n"
               "ctest --preset release -L ^unit$ -j 2 --no-tests=error\n"
-              "cmake --preset asan\ncmake --build --preset asan -j\n"
+              "cmake --preset asan\ncmake --build --preset asan --target unit_tests -j\n"
               "ctest --preset asan -L ^unit$ -j 2 --no-tests=error\n"
               "ctest --preset release -LE ^(unit|extra)$\n");
 }

@@ -33,14 +33,18 @@ bool holds_a_file(const fs::path& folder) {
     return !error && files != fs::directory_iterator();
 }
 
-int wait_for(pid_t child, const std::optional<SignalAfter>& signal) {
+/// Waits for the program's end; one that hangs is killed, and the test then sees 128 + SIGKILL.
+int wait_for(pid_t child, std::optional<SignalAfter> signal) {
+    constexpr int tries = 120 * 200;  // two minutes
     int status = 0;
-    if (signal) {
-        while (!holds_a_file(signal->when_exists) && ::waitpid(child, &status, WNOHANG) == 0)
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        ::kill(child, signal->signal);
+    for (int k = 0; ::waitpid(child, &status, WNOHANG) == 0; ++k) {
+        if (k == tries) ::kill(child, SIGKILL);
+        if (signal && holds_a_file(signal->when_exists)) {
+            ::kill(child, signal->signal);
+            signal.reset();
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    ::waitpid(child, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 

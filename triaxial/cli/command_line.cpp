@@ -80,6 +80,8 @@ void CommandLine::run(CLI::App& app, int argc, const char* const* argv) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads_));
     handle_signals(command.reaction);
+    // Results wait in the buffer until the last line of progress is off the terminal.
+    std::setvbuf(stdout, nullptr, _IOFBF, std::size_t{1} << 16);
     TerminalMonitor monitor(quiet_);
     Session session{settings_, monitor, threads_};
     command.run(session);

@@ -74,9 +74,7 @@ void run_field(const Arguments& arguments, Session& session) {
 void add_field_command(CLI::App& app, CommandLine& line) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App& command = line.add(
-        app, "field",
-        "Draws realizations of the random field on the grid of blocks. Columns of a property that "
-        "is not random hold the value of [particle].",
+        app, "field", "Draws realizations of the random field on the grid of blocks.",
         "grainfield field --set field.variable=friction --realizations 3 --out field.csv",
         [arguments](Session& session) { run_field(*arguments, session); }, OnSignal::end_at_once);
     command.add_option("config", arguments->config, "Config (TOML); without one the paper's case");

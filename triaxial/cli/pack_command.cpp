@@ -7,6 +7,7 @@
 
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/print_row.hpp"
+#include "triaxial/cli/state_keeper.hpp"
 #include "triaxial/config/load_config.hpp"
 #include "triaxial/test/packing_files.hpp"
 
@@ -19,22 +20,30 @@ struct Arguments {
 };
 
 void print_results(const packing::Packing& p) {
-    print_row("spheres", fmt::format("{} ({} in a block)", p.spheres.size(), p.block.spheres.size()));
+    print_row("spheres",
+              fmt::format("{} ({} in a block)", p.spheres.size(), p.block.spheres.size()));
     print_row("diameters scaled by", fmt::format("{:.5f}", p.block.grading.scale));
-    const auto achieved = packing::achieved_passing(p.block.grading.diameter, p.grading.sieve_diameter);
+    const auto achieved =
+        packing::achieved_passing(p.block.grading.diameter, p.grading.sieve_diameter);
     for (std::size_t k = 0; k < achieved.size(); ++k)
-        print_row(k == 0 ? "grading (by mass)" : "",
-                  fmt::format("{:6.1f} mm: {:6.2f} % passing, target {:6.2f} %", 1e3 * p.grading.sieve_diameter[k],
-                              achieved[k], p.grading.passing[k]));
-    print_row("block", fmt::format("porosity {:.4f}, mean stress {:.0f} Pa, compacted with friction {:.3f} rad",
-                                   p.block.porosity, p.block.mean_stress, p.block.compaction_friction_angle));
+        print_row(
+            k == 0 ? "grading (by mass)" : "",
+            fmt::format("{:6.1f} mm: {:6.2f} % passing, target {:6.2f} %",
+                        1e3 * p.grading.sieve_diameter[k], achieved[k], p.grading.passing[k]));
+    print_row(
+        "block",
+        fmt::format("porosity {:.4f}, mean stress {:.0f} Pa, compacted with friction {:.3f} rad",
+                    p.block.porosity, p.block.mean_stress, p.block.compaction_friction_angle));
     print_row("porosity", fmt::format("{:.4f}", p.porosity));
-    print_row("coordination number",
-              fmt::format("{:.3f}, {:.3f} without rattlers ({:.1f} % of the spheres, {:.1f} % of the volume)",
-                          p.fabric.coordination_number, p.fabric.mechanical_coordination_number,
-                          100 * p.fabric.rattler_fraction, 100 * p.fabric.rattler_volume_fraction));
+    print_row(
+        "coordination number",
+        fmt::format(
+            "{:.3f}, {:.3f} without rattlers ({:.1f} % of the spheres, {:.1f} % of the volume)",
+            p.fabric.coordination_number, p.fabric.mechanical_coordination_number,
+            100 * p.fabric.rattler_fraction, 100 * p.fabric.rattler_volume_fraction));
     print_row("fabric anisotropy", fmt::format("{:.4f}", p.fabric.anisotropy));
-    print_row("vertical stress", fmt::format("{:.4f} of gamma * depth, R2 = {:.5f}", p.profile.slope_ratio, p.profile.r2));
+    print_row("vertical stress", fmt::format("{:.4f} of gamma * depth, R2 = {:.5f}",
+                                             p.profile.slope_ratio, p.profile.r2));
     print_row("K0", fmt::format("{:.3f}", p.profile.K0));
     print_row("state hash", p.state_hash);
 }
@@ -42,8 +51,12 @@ void print_results(const packing::Packing& p) {
 void run_pack(const Arguments& arguments, Session& session) {
     const Config config = load_config(arguments.config, session.settings);
     const auto start = std::chrono::steady_clock::now();
-    const packing::Packing packed = packing::pack(config.packing, config.grading, packing_material(config),
-                                                  config.time, session.monitor);
+    StateKeeper keeper(session.monitor,
+                       std::filesystem::path(arguments.out).replace_extension(".failed.h5"));
+    const packing::Packing packed = keeper.run([&] {
+        return packing::pack(config.packing, config.grading, packing_material(config), config.time,
+                             keeper);
+    });
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     write_packing(arguments.out, packed, seconds.count());
     print_results(packed);
@@ -55,13 +68,16 @@ void run_pack(const Arguments& arguments, Session& session) {
 
 void add_pack_command(CLI::App& app, CommandLine& line) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App& command = line.add(app, "pack",
-                                 "Packs one block to the grading and porosity, clones it by mirror flips and lets the "
-                                 "sample settle under gravity. Writes the spheres and, beside them, a .json.",
-                                 "grainfield pack --set packing.spheres=351 --out P.h5",
-                                 [arguments](Session& session) { run_pack(*arguments, session); });
+    CLI::App& command = line.add(
+        app, "pack",
+        "Packs one block to the grading and porosity, clones it by mirror flips and lets the "
+        "sample settle under gravity. Writes the spheres and, beside them, a .json.",
+        "grainfield pack --set packing.spheres=351 --out P.h5",
+        [arguments](Session& session) { run_pack(*arguments, session); });
     command.add_option("config", arguments->config, "Config (TOML); without one the paper's case");
-    command.add_option("--out", arguments->out, "File to write: .h5 (ParaView), .csv, .data or .txt")->required();
+    command
+        .add_option("--out", arguments->out, "File to write: .h5 (ParaView), .csv, .data or .txt")
+        ->required();
 }
 
 }  // namespace grainfield::triaxial

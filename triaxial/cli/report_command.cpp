@@ -27,13 +27,13 @@ void run_report(const Arguments& arguments, Session& session) {
 void add_report_command(CLI::App& app, CommandLine& line) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App& command = line.add(
-        app, "report",
-        "Makes DIR/report.html, one page with the figures of a triaxial run. Further folders are "
-        "runs at other confining stresses, for a common failure envelope.",
+        app, "report", "Makes DIR/report.html, one page with the figures of a triaxial run.",
         "grainfield report run-100kPa run-200kPa",
         [arguments](Session& session) { run_report(*arguments, session); }, OnSignal::end_at_once);
     command.add_option("dir", arguments->folder, "Folder of a triaxial run")->required();
-    command.add_option("more", arguments->companions, "Folders of companion runs");
+    command.add_option(
+        "more", arguments->companions,
+        "Folders of runs at other confining stresses, for a common failure envelope");
 }
 
 }  // namespace grainfield::triaxial

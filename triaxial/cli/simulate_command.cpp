@@ -10,6 +10,15 @@
 namespace grainfield::triaxial {
 namespace {
 
+constexpr const char* files_text =
+    "DIR gets\n"
+    "  trajectory.csv  positions, velocities and spins, all of the same time\n"
+    "  energy.csv      energies and works, whose sum is constant: external_work_J is minus the\n"
+    "                  work that moving walls put in\n"
+    "  contacts.csv    contacts at the end; wall W is j = -1-W, the shear force is that on i\n"
+    "  summary.json    counts, times, how well the energies close, hash of the final state\n"
+    "or, where the simulation fails or is interrupted, state.h5 alone.\n";
+
 struct Arguments {
     std::string scene, out;
 };
@@ -34,14 +43,12 @@ void run_simulate(const Arguments& arguments, Session& session) {
 
 void add_simulate_command(CLI::App& app, CommandLine& line) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App& command = line.add(
-        app, "simulate",
-        "Runs a scene of spheres and plane walls. DIR gets trajectory.csv, energy.csv, "
-        "contacts.csv and summary.json. The columns of energy.csv add up to a constant: "
-        "external_work_J is minus the work that moving walls put in. contacts.csv names wall W as "
-        "j = -1-W; its forces are those on i.",
-        "grainfield simulate scene.toml --out run --set time.end=0.1",
-        [arguments](Session& session) { run_simulate(*arguments, session); });
+    CLI::App& command =
+        line.add(app, "simulate",
+                 "Runs a scene of spheres and plane walls: trajectories, energies, contacts.",
+                 "grainfield simulate scene.toml --out run --set time.end=0.1",
+                 [arguments](Session& session) { run_simulate(*arguments, session); });
+    command.footer(std::string(files_text) + command.get_footer());
     command.add_option("scene", arguments->scene, "Scene (TOML)")->required();
     command.add_option("--out", arguments->out, "Folder for the results, made where it is missing")
         ->required();

@@ -24,6 +24,10 @@ std::size_t terminal_width() {
     return size.ws_col;
 }
 
+std::string rate_text(double rate) {
+    return rate < 100 ? fmt::format("{:.3g} steps/s", rate) : fmt::format("{:.0f} steps/s", rate);
+}
+
 }  // namespace
 
 std::string duration_text(double seconds) {
@@ -80,8 +84,7 @@ std::string TerminalMonitor::text(double done, std::int64_t steps, std::string_v
     line += fmt::format("  {} steps", steps);
     const double measured = Seconds(now - first_report_).count();
     if (measured > 0 && steps > first_steps_)
-        line +=
-            fmt::format("  {:.4g} steps/s", static_cast<double>(steps - first_steps_) / measured);
+        line += "  " + rate_text(static_cast<double>(steps - first_steps_) / measured);
     const double elapsed = Seconds(now - started_).count();
     if (done > 0 && done < 1) line += "  left " + duration_text(elapsed * (1 - done) / done);
     if (!detail.empty()) line += fmt::format("  {}", detail);

@@ -14,6 +14,7 @@
 #include "core/kernel_choice.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/print_row.hpp"
+#include "triaxial/cli/state_keeper.hpp"
 #include "triaxial/config/load_config.hpp"
 #include "triaxial/config/write_config.hpp"
 #include "triaxial/report/report.hpp"
@@ -42,12 +43,15 @@ Sample sample_from_file(const Arguments& arguments, const Config& config, const 
     const fs::path path = *arguments.packing;
     core::SphereFile file = read_packing(path, config);
     const auto variable = config.field.variable;
-    const bool friction = variable == randomfield::Variable::friction || variable == randomfield::Variable::both;
-    const bool stiffness = variable == randomfield::Variable::stiffness || variable == randomfield::Variable::both;
+    const bool friction =
+        variable == randomfield::Variable::friction || variable == randomfield::Variable::both;
+    const bool stiffness =
+        variable == randomfield::Variable::stiffness || variable == randomfield::Variable::both;
     if ((friction && file.has_friction_angle) || (stiffness && file.has_normal_stiffness))
-        throw InputError(fmt::format(
-            "{}: brings a column for the property that field.variable makes random; leave out the one or the other",
-            path.string()));
+        throw InputError(
+            fmt::format("{}: brings a column for the property that field.variable makes random; "
+                        "leave out the one or the other",
+                        path.string()));
     if (fs::exists(json_beside(path)) && file.kind == "packing")
         core::write_file_atomically(out / "packing.json", core::read_whole_file(json_beside(path)));
     return {std::move(file.spheres), *file.box};
@@ -55,42 +59,50 @@ Sample sample_from_file(const Arguments& arguments, const Config& config, const 
 
 Sample sample_from_nothing(const Config& config, const fs::path& out, core::Monitor& monitor) {
     const auto start = std::chrono::steady_clock::now();
-    const packing::Packing packed =
-        packing::pack(config.packing, config.grading, packing_material(config), config.time, monitor);
+    const packing::Packing packed = packing::pack(config.packing, config.grading,
+                                                  packing_material(config), config.time, monitor);
     write_packing(out / "packing.h5", packed, seconds_since(start));
     return {packed.spheres, packed.box};
 }
 
 void print_results(const TestResult& r, const Config& config, const FieldRecord& field) {
     const double degrees = 180 / std::numbers::pi;
-    print_row("confining stress", fmt::format("{:.1f} kPa, held within {:.3f} % (RMS), {:.3f} % at most",
-                                              config.triaxial.confining_stress / 1e3, 100 * r.lateral_rms_error,
-                                              100 * r.lateral_max_error));
-    print_row("porosity", fmt::format("{:.4f}, {:.4f} when shear began", r.porosity, r.sheared_porosity));
+    print_row("confining stress",
+              fmt::format("{:.1f} kPa, held within {:.3f} % (RMS), {:.3f} % at most",
+                          config.triaxial.confining_stress / 1e3, 100 * r.lateral_rms_error,
+                          100 * r.lateral_max_error));
+    print_row("porosity",
+              fmt::format("{:.4f}, {:.4f} when shear began", r.porosity, r.sheared_porosity));
     if (field.variable != randomfield::Variable::none)
-        print_row("random field", fmt::format("realization {}, gamma {:.4f}", field.realization, field.gamma));
+        print_row("random field",
+                  fmt::format("realization {}, gamma {:.4f}", field.realization, field.gamma));
     print_row("peak deviator stress", fmt::format("{:.2f} kPa at {:.3f} % axial strain",
-                                                  r.results.peak_deviator_stress / 1e3, 100 * r.results.axial_strain_at_peak));
+                                                  r.results.peak_deviator_stress / 1e3,
+                                                  100 * r.results.axial_strain_at_peak));
     print_row("E50", fmt::format("{:.2f} MPa", r.results.E50 / 1e6));
     print_row("friction angle", fmt::format("{:.4f} rad = {:.2f} degrees", r.results.friction_angle,
                                             r.results.friction_angle * degrees));
     print_row("inertial number", fmt::format("{:.2e}", r.inertial_number));
-    print_row("steps", fmt::format("{} isotropic, {} shear, {:.2f} us each", r.isotropic_steps, r.shear_steps, 1e6 * r.mean_step));
+    print_row("steps", fmt::format("{} isotropic, {} shear, {:.2f} us each", r.isotropic_steps,
+                                   r.shear_steps, 1e6 * r.mean_step));
     print_row("ended because", r.end_reason);
 }
 
 void run_triaxial(const Arguments& arguments, Session& session) {
     const Config config = load_config(arguments.config, session.settings);
     if (arguments.realization < 0)
-        throw InputError(fmt::format("--realization = {}: must be a whole number >= 0", arguments.realization));
+        throw InputError(
+            fmt::format("--realization = {}: must be a whole number >= 0", arguments.realization));
     const kernels::KernelTable& kernels = core::choose_kernels(config.solver);
     const fs::path out = arguments.out;
     core::create_folder(out);
+    StateKeeper keeper(session.monitor, out / "state.h5");
 
     RunTimes times;
     auto start = std::chrono::steady_clock::now();
-    Sample sample = arguments.packing ? sample_from_file(arguments, config, out)
-                                      : sample_from_nothing(config, out, session.monitor);
+    Sample sample = arguments.packing
+                        ? sample_from_file(arguments, config, out)
+                        : keeper.run([&] { return sample_from_nothing(config, out, keeper); });
     times.packing = seconds_since(start);
     start = std::chrono::steady_clock::now();
     const FieldRecord field = map_field(config, arguments.realization, sample);
@@ -99,30 +111,26 @@ void run_triaxial(const Arguments& arguments, Session& session) {
     core::Scene scene = make_scene(std::move(sample), config);
     core::check_start(scene, arguments.packing.value_or("the packing"));
     core::Simulation simulation(std::move(scene), kernels);
-    TestResult result;
-    try {
-        result = run_test(simulation, config, session.monitor);
-    } catch (const SimulationError& error) {
-        write_state(out / "state.h5", simulation);
-        throw SimulationError(fmt::format("{}; the state is in {}", error.what(), (out / "state.h5").string()));
-    } catch (const Interrupted& error) {
-        write_state(out / "state.h5", simulation);
-        throw Interrupted(fmt::format("{}; the state is in {}", error.what(), (out / "state.h5").string()));
-    }
+    const TestResult result = keeper.run([&] { return run_test(simulation, config, keeper); });
     core::write_file_atomically(out / "config.toml", write_config(config));
     core::write_file_atomically(out / "curve.csv", curve_csv(result.curve));
     write_state(out / "state.h5", simulation);
-    const nlohmann::json summary = run_summary(result, field, config, simulation, times, session.threads);
+    const nlohmann::json summary =
+        run_summary(result, field, config, simulation, times, session.threads);
     core::write_file_atomically(out / "summary.json", summary.dump(2) + "\n");
     const fs::path report = write_report(out);
 
-    print_row("spheres", fmt::format("{}, {} contacts when shear began", simulation.spheres().size(), result.contacts));
+    print_row("spheres", fmt::format("{}, {} contacts when shear began",
+                                     simulation.spheres().size(), result.contacts));
     print_results(result, config, field);
     const double total = summary["wall_seconds"]["total"];
-    print_row("time", fmt::format("{:.1f} s: packing {:.1f}, isotropic {:.1f}, shear {:.1f}; {:.3g} sphere-steps/s", total,
-                                  times.packing, result.isotropic_seconds, result.shear_seconds,
-                                  summary["particle_steps_per_second"].get<double>()));
-    print_row("solver", fmt::format("{}, {}, {} threads", kernels.isa, kernels.precision, session.threads));
+    print_row("time",
+              fmt::format(
+                  "{:.1f} s: packing {:.1f}, isotropic {:.1f}, shear {:.1f}; {:.3g} sphere-steps/s",
+                  total, times.packing, result.isotropic_seconds, result.shear_seconds,
+                  summary["particle_steps_per_second"].get<double>()));
+    print_row("solver",
+              fmt::format("{}, {}, {} threads", kernels.isa, kernels.precision, session.threads));
     print_row("state hash", summary["state_hash"].get<std::string>());
     print_row("report", report.string());
 }
@@ -131,15 +139,19 @@ void run_triaxial(const Arguments& arguments, Session& session) {
 
 void add_triaxial_command(CLI::App& app, CommandLine& line) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App& command = line.add(
-        app, "triaxial",
-        "Runs one triaxial test: packing (made, or read), random field, isotropic compression, shear past the peak, "
-        "report.",
-        "grainfield triaxial --packing P.h5 --set field.variable=stiffness --realization 7 --out run7",
-        [arguments](Session& session) { run_triaxial(*arguments, session); });
+    CLI::App& command =
+        line.add(app, "triaxial",
+                 "Runs one triaxial test: packing (made, or read), random field, isotropic "
+                 "compression, shear past the peak, "
+                 "report.",
+                 "grainfield triaxial --packing P.h5 --set field.variable=stiffness --realization "
+                 "7 --out run7",
+                 [arguments](Session& session) { run_triaxial(*arguments, session); });
     command.add_option("config", arguments->config, "Config (TOML); without one the paper's case");
-    command.add_option("--packing", arguments->packing, "Packing to start from, .h5 or .csv; without one it is made");
-    command.add_option("--realization", arguments->realization, "Which realization of the field, 0 unless given");
+    command.add_option("--packing", arguments->packing,
+                       "Packing to start from, .h5 or .csv; without one it is made");
+    command.add_option("--realization", arguments->realization,
+                       "Which realization of the field, 0 unless given");
     command.add_option("--out", arguments->out, "Folder for the results")->required()->take_last();
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/driver.hpp"
+#include "core/kernel_choice.hpp"
 #include "triaxial/scene/scene_output.hpp"
 #include "triaxial/scene/scene_setup.hpp"
 
@@ -17,16 +18,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Only one set of kernels so far, and it is in double precision: "mixed" allows what is better.
-const kernels::KernelTable& choose_kernels(const SceneFile& file, const std::string& source) {
-    const bool wide = file.solver.isa == core::Isa::avx2 || file.solver.isa == core::Isa::avx512;
-    if (wide)
-        throw InputError(
-            fmt::format("{}: solver.isa = \"{}\": not in this build; allowed: \"auto\", \"scalar\"",
-                        source, file.solver.isa == core::Isa::avx2 ? "avx2" : "avx512"));
-    return kernels::reference_kernels();
 }
 
 /// round(end/step), or nothing where the step is automatic [-].
@@ -41,6 +32,8 @@ std::optional<std::int64_t> fixed_steps(const SceneFile& file, const std::string
     return static_cast<std::int64_t>(steps);
 }
 
+constexpr double report_interval = 0.1;  // [s]
+
 class SceneRun {
   public:
     SceneRun(const SceneFile& file, const std::string& source, core::Simulation& simulation,
@@ -54,12 +47,13 @@ class SceneRun {
           servos_(set_up_servos(file, simulation.scene(), source)) {}
 
     void run() {
+        report();
         bool last = false;
         while (!last) {
             simulation_.compute_forces(true);
             double step = driver_.control().next(simulation_);
             if (fixed_steps_) {
-                last = simulation_.steps() + 1 == *fixed_steps_;
+                last = simulation_.steps() + 1 >= *fixed_steps_;
             } else if (file_.end - simulation_.time() <= (1 + 1e-9) * step) {
                 step = file_.end - simulation_.time();
                 last = true;
@@ -69,8 +63,9 @@ class SceneRun {
                 s.servo.steer(simulation_, s.area(simulation_.walls()), step);
             simulation_.advance(step);
             if (simulation_.steps() % core::Driver::watch_interval == 0) driver_.watch();
-            report();
+            if (seconds_since(reported_) > report_interval) report();
         }
+        report();
         simulation_.compute_forces(true);
         simulation_.check_state();
         output_.add(simulation_, time());
@@ -91,9 +86,8 @@ class SceneRun {
         next_output_ = std::floor(reached) + 1;
     }
 
+    /// To the monitor, which shows what it wants of it.
     void report() {
-        constexpr double interval = 0.1;  // [s]
-        if (seconds_since(reported_) < interval) return;
         reported_ = Clock::now();
         monitor_.progress(
             time() / file_.end, simulation_.steps(),
@@ -108,14 +102,14 @@ class SceneRun {
     core::Driver driver_;
     std::vector<ServoWall> servos_;
     double next_output_ = 0;  // in units of the interval [-]
-    Clock::time_point reported_ = Clock::now();
+    Clock::time_point reported_{};
 };
 
 }  // namespace
 
 SceneSummary run_scene(const SceneFile& file, const std::filesystem::path& source,
                        const std::filesystem::path& out, int threads, core::Monitor& monitor) {
-    const kernels::KernelTable& kernels = choose_kernels(file, source.string());
+    const kernels::KernelTable& kernels = core::choose_kernels(file.solver);
     monitor.begin("reading the scene");
     core::SimulationOptions options;
     options.ledger = true;

@@ -1,12 +1,10 @@
 #include "triaxial/scene/scene_output.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/errors.hpp"
+#include "core/files/folder.hpp"
 #include "core/files/sphere_file.hpp"
 #include "triaxial/scene/contact_table.hpp"
 
@@ -21,11 +19,7 @@ constexpr const char* energy_header =
     "damping_work_J,external_work_J,gravity_J";
 
 fs::path made_folder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (!fs::is_directory(folder))
-        throw FileError(fmt::format("{}: no such folder, and it cannot be made{}", folder.string(),
-                                    error ? ": " + error.message() : ""));
+    core::create_folder(folder);
     return folder;
 }
 

@@ -8,18 +8,19 @@
 namespace grainfield::triaxial {
 namespace {
 
-constexpr double fallen = 0.05;            // below the peak [-]
-constexpr double further_strain = 0.01;    // without a new peak [-]
-constexpr double largest_strain = 0.10;    // [-]
+constexpr double fallen = 0.05;          // below the peak [-]
+constexpr double further_strain = 0.01;  // without a new peak [-]
+constexpr double largest_strain = 0.10;  // [-]
 
 }  // namespace
 
 CurveResults evaluate_curve(const std::vector<CurvePoint>& curve, double confining_stress) {
-    const auto peak = std::max_element(curve.begin(), curve.end(), [](const auto& a, const auto& b) {
-        return a.deviator_stress < b.deviator_stress;
-    });
+    const auto peak = std::max_element(
+        curve.begin(), curve.end(),
+        [](const auto& a, const auto& b) { return a.deviator_stress < b.deviator_stress; });
     if (peak == curve.end() || !(peak->deviator_stress > 0))
-        throw SimulationError("the deviator stress never became positive: there is no peak to evaluate");
+        throw SimulationError(
+            "the deviator stress never became positive: there is no peak to evaluate");
     CurveResults results;
     results.peak_deviator_stress = peak->deviator_stress;
     results.axial_strain_at_peak = peak->axial_strain;
@@ -29,8 +30,10 @@ CurveResults evaluate_curve(const std::vector<CurvePoint>& curve, double confini
     CurvePoint before{};  // the curve starts at zero strain and zero deviator stress
     for (const CurvePoint& point : curve) {
         if (point.deviator_stress >= half) {
-            const double share = (half - before.deviator_stress) / (point.deviator_stress - before.deviator_stress);
-            results.E50 = half / (before.axial_strain + share * (point.axial_strain - before.axial_strain));
+            const double share =
+                (half - before.deviator_stress) / (point.deviator_stress - before.deviator_stress);
+            results.E50 =
+                half / (before.axial_strain + share * (point.axial_strain - before.axial_strain));
             break;
         }
         before = point;
@@ -43,7 +46,8 @@ bool PeakWatch::past_peak(const CurvePoint& point) {
         peak_ = point.deviator_stress;
         strain_at_peak_ = point.axial_strain;
     }
-    if (peak_ > 0 && point.deviator_stress < (1 - fallen) * peak_ && point.axial_strain > strain_at_peak_)
+    if (peak_ > 0 && point.deviator_stress < (1 - fallen) * peak_ &&
+        point.axial_strain > strain_at_peak_)
         reason_ = "the deviator stress fell 5 % below its peak";
     else if (point.axial_strain > strain_at_peak_ + further_strain)
         reason_ = "a further 1 % of strain brought no new peak";

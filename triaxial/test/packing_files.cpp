@@ -10,7 +10,8 @@ nlohmann::json grading_json(const packing::Packing& p) {
     const std::vector<double>& diameters = p.block.grading.diameter;
     return {{"sieve_diameter_m", p.grading.sieve_diameter},
             {"target_passing_percent", p.grading.passing},
-            {"achieved_passing_percent", packing::achieved_passing(diameters, p.grading.sieve_diameter)},
+            {"achieved_passing_percent",
+             packing::achieved_passing(diameters, p.grading.sieve_diameter)},
             {"achieved_curve",
              {{"diameter_m", diameters},
               {"passing_percent", packing::achieved_passing(diameters, diameters)}}}};
@@ -69,7 +70,9 @@ nlohmann::json packing_json(const packing::Packing& p, double wall_seconds) {
             {"block_steps", p.block.steps},
             {"wall_seconds", wall_seconds},
             {"wall_seconds_by_stage",
-             {{"block", p.block_seconds}, {"settling", p.settling_seconds}, {"isotropic", p.isotropic_seconds}}},
+             {{"block", p.block_seconds},
+              {"settling", p.settling_seconds},
+              {"isotropic", p.isotropic_seconds}}},
             {"state_hash", p.state_hash},
             {"version", GRAINFIELD_VERSION},
             {"grading", grading_json(p)},
@@ -80,14 +83,18 @@ std::filesystem::path json_beside(const std::filesystem::path& packing_file) {
     return std::filesystem::path(packing_file).replace_extension(".json");
 }
 
-void write_packing(const std::filesystem::path& path, const packing::Packing& p, double wall_seconds) {
+void write_packing(const std::filesystem::path& path, const packing::Packing& p,
+                   double wall_seconds) {
     core::SphereFile file;
     file.spheres = p.spheres;
     file.box = p.box;
     file.has_normal_stiffness = file.has_friction_angle = file.has_block = true;
     file.kind = "packing";
-    file.attributes = {{"porosity", p.porosity}, {"seed", p.options.seed}, {"blocks", p.options.blocks},
-                       {"block_m", {p.options.block.x(), p.options.block.y(), p.options.block.z()}}};
+    file.attributes = {
+        {"porosity", p.porosity},
+        {"seed", p.options.seed},
+        {"blocks", p.options.blocks},
+        {"block_m", {p.options.block.x(), p.options.block.y(), p.options.block.z()}}};
     core::write_spheres(path, file);
     core::write_file_atomically(json_beside(path), packing_json(p, wall_seconds).dump(2) + "\n");
 }

@@ -11,10 +11,14 @@ namespace {
 
 const char* case_name(randomfield::Variable variable) {
     switch (variable) {
-        case randomfield::Variable::friction: return "friction";
-        case randomfield::Variable::stiffness: return "stiffness";
-        case randomfield::Variable::both: return "both";
-        case randomfield::Variable::none: break;
+        case randomfield::Variable::friction:
+            return "friction";
+        case randomfield::Variable::stiffness:
+            return "stiffness";
+        case randomfield::Variable::both:
+            return "both";
+        case randomfield::Variable::none:
+            break;
     }
     return "deterministic";
 }
@@ -73,7 +77,8 @@ nlohmann::json run_summary(const TestResult& r, const FieldRecord& field, const 
           {"isotropic", r.isotropic_seconds},
           {"shear", r.shear_seconds},
           {"total", times.packing + times.field + stepping}}},
-        {"particle_steps_per_second", static_cast<double>(particles) * static_cast<double>(steps) / stepping},
+        {"particle_steps_per_second",
+         static_cast<double>(particles) * static_cast<double>(steps) / stepping},
         {"state_hash", simulation.state_hash()},
         {"isa", simulation.kernel_table().isa},
         {"precision", simulation.kernel_table().precision},
@@ -88,9 +93,9 @@ std::string curve_csv(const std::vector<CurvePoint>& curve) {
         "axial_strain,deviator_stress_Pa,axial_stress_Pa,lateral_stress_x_Pa,lateral_stress_z_Pa,"
         "volumetric_strain,unbalanced_force_ratio,time_s,contacts\n";
     for (const CurvePoint& p : curve)
-        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{}\n", p.axial_strain, p.deviator_stress,
-                       p.axial_stress, p.lateral_stress_x, p.lateral_stress_z, p.volumetric_strain,
-                       p.unbalanced_force_ratio, p.time, p.contacts);
+        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{}\n", p.axial_strain,
+                       p.deviator_stress, p.axial_stress, p.lateral_stress_x, p.lateral_stress_z,
+                       p.volumetric_strain, p.unbalanced_force_ratio, p.time, p.contacts);
     return text;
 }
 
@@ -118,7 +123,8 @@ void write_state(const std::filesystem::path& path, const core::Simulation& simu
         const double i = pair ? pairs[c].i : list.wall_pairs()[c - pairs.size()].sphere;
         const double j = pair ? pairs[c].j : -1 - list.wall_pairs()[c - pairs.size()].wall;
         const Vec3& shear = list.shear(c);
-        for (double value : {i, j, shear.x(), shear.y(), shear.z()}) contacts.values.push_back(value);
+        for (double value : {i, j, shear.x(), shear.y(), shear.z()})
+            contacts.values.push_back(value);
     }
     contacts.shape = {contacts.values.size() / 5, 5};
     if (!contacts.values.empty()) file.extra["contacts"] = std::move(contacts);

@@ -19,12 +19,14 @@ core::SphereFile read_packing(const std::filesystem::path& path, const Config& c
     core::ParticleStore& s = file.spheres;
     core::check_spheres(s, path.string(), file.lines);
     std::vector<std::pair<std::int32_t, std::int32_t>> candidates;
-    for (const auto [i, j] : core::find_pairs(s.position, s.radius, 0.0)) candidates.emplace_back(i, j);
+    for (const auto [i, j] : core::find_pairs(s.position, s.radius, 0.0))
+        candidates.emplace_back(i, j);
     core::check_overlaps(s, candidates, path.string(), file.lines);
 
     const bool ours = file.kind == "packing";  // its properties were those of the packing process
     if (!file.has_normal_stiffness || ours)
-        std::fill(s.normal_stiffness.begin(), s.normal_stiffness.end(), config.particle.normal_stiffness);
+        std::fill(s.normal_stiffness.begin(), s.normal_stiffness.end(),
+                  config.particle.normal_stiffness);
     if (!file.has_friction_angle || ours)
         std::fill(s.friction_angle.begin(), s.friction_angle.end(), config.particle.friction_angle);
     if (ours) file.has_normal_stiffness = file.has_friction_angle = false;
@@ -38,7 +40,8 @@ FieldRecord map_field(const Config& config, std::int64_t realization, Sample& sa
     record.variable = config.field.variable;
     record.realization = realization;
     if (config.field.variable == randomfield::Variable::none) return record;
-    const randomfield::FieldGenerator generator({config.packing.blocks, config.packing.block}, config.field);
+    const randomfield::FieldGenerator generator({config.packing.blocks, config.packing.block},
+                                                config.field);
     record.field = generator.draw(static_cast<std::uint64_t>(realization));
     record.gamma = generator.gamma();
     if (generator.grid().size() <= randomfield::max_error_cells)
@@ -54,19 +57,20 @@ FieldRecord map_field(const Config& config, std::int64_t realization, Sample& sa
         }
         for (std::size_t a = 0; a < 3; ++a)
             if (block[a] < 0 || block[a] >= config.packing.blocks[a])
-                throw InputError(fmt::format(
-                    "packing.blocks = [{}, {}, {}]: sphere {} of the packing is in block ({}, {}, {}), outside the "
-                    "field's grid; give the blocks of the packing",
-                    config.packing.blocks[0], config.packing.blocks[1], config.packing.blocks[2], i, block[0],
-                    block[1], block[2]));
+                throw InputError(
+                    fmt::format("packing.blocks = [{}, {}, {}]: sphere {} of the packing is in "
+                                "block ({}, {}, {}), outside the "
+                                "field's grid; give the blocks of the packing",
+                                config.packing.blocks[0], config.packing.blocks[1],
+                                config.packing.blocks[2], i, block[0], block[1], block[2]));
         cell[i] = generator.grid().index_of_block(block);
     }
     randomfield::BlockField::map(record.field.friction_angle, cell, s.friction_angle);
     randomfield::BlockField::map(record.field.normal_stiffness, cell, s.normal_stiffness);
     if (const auto& k = record.field.normal_stiffness; !k.empty()) {
         record.mean_ratio_expected = generator.stiffness_mean_ratio();
-        record.mean_ratio_cells =
-            std::accumulate(k.begin(), k.end(), 0.0) / static_cast<double>(k.size()) / config.field.stiffness.mean;
+        record.mean_ratio_cells = std::accumulate(k.begin(), k.end(), 0.0) /
+                                  static_cast<double>(k.size()) / config.field.stiffness.mean;
     }
     return record;
 }

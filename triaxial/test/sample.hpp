@@ -20,11 +20,11 @@ core::SphereFile read_packing(const std::filesystem::path& path, const Config& c
 struct FieldRecord {
     randomfield::Variable variable = randomfield::Variable::none;
     std::int64_t realization = 0;
-    double gamma = 0;                          ///< variance of a cell's G [-]
-    std::optional<double> covariance_error;    ///< of the generator, in gamma [-]
-    double mean_ratio_expected = 1;            ///< E[k]/mu (stiffness) [-]
-    double mean_ratio_cells = 1;               ///< of this realization's cells [-]
-    randomfield::BlockField field;             ///< empty without a random variable
+    double gamma = 0;                        ///< variance of a cell's G [-]
+    std::optional<double> covariance_error;  ///< of the generator, in gamma [-]
+    double mean_ratio_expected = 1;          ///< E[k]/mu (stiffness) [-]
+    double mean_ratio_cells = 1;             ///< of this realization's cells [-]
+    randomfield::BlockField field;           ///< empty without a random variable
 };
 
 /// Draws realization k and maps it onto the spheres, block by block; spheres without a block take

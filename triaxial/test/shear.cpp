@@ -10,25 +10,28 @@
 namespace grainfield::triaxial {
 namespace {
 
-constexpr std::size_t top_wall = 3;            // y high, in the order of box_walls()
-constexpr double recording_interval = 5e-5;    // of axial strain [-]
-constexpr double servo_speed_share = 5.0;      // cap of the side walls over the axial rate [-]
-constexpr double settled_strain = 1e-3;        // from here the largest servo error counts [-]
+constexpr std::size_t top_wall = 3;          // y high, in the order of box_walls()
+constexpr double recording_interval = 5e-5;  // of axial strain [-]
+constexpr double servo_speed_share = 5.0;    // cap of the side walls over the axial rate [-]
+constexpr double settled_strain = 1e-3;      // from here the largest servo error counts [-]
 
 /// Poisson's ratio of a random packing whose spheres move with the mean strain:
 /// (1 - lambda)/(4 + lambda). Only the start of the test uses it.
-double affine_poisson_ratio(double lambda) { return (1 - lambda) / (4 + lambda); }
+double affine_poisson_ratio(double lambda) {
+    return (1 - lambda) / (4 + lambda);
+}
 
 }  // namespace
 
 ShearStage::ShearStage(core::Driver& driver, const TriaxialOptions& options)
-    : driver_(driver), options_(options), start_size_(packing::box_dimensions(driver.simulation())) {
+    : driver_(driver),
+      options_(options),
+      start_size_(packing::box_dimensions(driver.simulation())) {
     for (std::size_t wall : {0u, 1u, 4u, 5u})
-        servos_.emplace_back(
-            wall, core::WallServo::Options{
-                      .stress = options.confining_stress,
-                      .max_speed = servo_speed_share * options.strain_rate * 0.5 *
-                                   start_size_[static_cast<int>(wall) / 2]});
+        servos_.emplace_back(wall, core::WallServo::Options{
+                                       .stress = options.confining_stress,
+                                       .max_speed = servo_speed_share * options.strain_rate * 0.5 *
+                                                    start_size_[static_cast<int>(wall) / 2]});
 }
 
 /// Gives every sphere and wall the velocity of the imposed strain field, so that the test does not
@@ -37,12 +40,14 @@ void ShearStage::start_affine() {
     core::Simulation& simulation = driver_.simulation();
     const double lateral =
         affine_poisson_ratio(simulation.scene().stiffness_ratio) * options_.strain_rate;
-    const Vec3 low(simulation.walls()[0].point.x(), simulation.walls()[2].point.y(), simulation.walls()[4].point.z());
+    const Vec3 low(simulation.walls()[0].point.x(), simulation.walls()[2].point.y(),
+                   simulation.walls()[4].point.z());
     const Vec3 middle = low + 0.5 * start_size_;
     for (std::size_t i = 0; i < simulation.spheres().size(); ++i) {
         const Vec3 x = simulation.spheres().position[i];
-        simulation.add_velocity(i, Vec3(lateral * (x.x() - middle.x()), -options_.strain_rate * (x.y() - low.y()),
-                                        lateral * (x.z() - middle.z())));
+        simulation.add_velocity(
+            i, Vec3(lateral * (x.x() - middle.x()), -options_.strain_rate * (x.y() - low.y()),
+                    lateral * (x.z() - middle.z())));
     }
     for (core::WallServo& servo : servos_)
         servo.set_speed(0.5 * lateral * start_size_[static_cast<int>(servo.wall()) / 2]);
@@ -93,7 +98,8 @@ bool ShearStage::record() {
     const bool past = peak_.past_peak(point);
     if (options_.max_axial_strain) {
         if (point.axial_strain < *options_.max_axial_strain) return false;
-        end_reason_ = fmt::format("{:g} % of axial strain, as asked for", 100 * *options_.max_axial_strain);
+        end_reason_ =
+            fmt::format("{:g} % of axial strain, as asked for", 100 * *options_.max_axial_strain);
         return true;
     }
     if (past) end_reason_ = peak_.reason();
@@ -114,17 +120,20 @@ void ShearStage::run() {
         ++steps_;
         if (steps_ % 50 == 0) {
             const CurvePoint& last = curve_.back();
-            const double done = options_.max_axial_strain ? last.axial_strain / *options_.max_axial_strain : -1;
+            const double done =
+                options_.max_axial_strain ? last.axial_strain / *options_.max_axial_strain : -1;
             driver_.monitor().progress(done, steps_,
                                        fmt::format("strain {:.3f} %, q {:.1f} kPa, peak {:.1f} kPa",
-                                                   100 * last.axial_strain, last.deviator_stress / 1e3, peak_.peak() / 1e3));
+                                                   100 * last.axial_strain,
+                                                   last.deviator_stress / 1e3, peak_.peak() / 1e3));
         }
     }
     driver_.simulation().compute_forces(true);
 }
 
 double ShearStage::lateral_rms_error() const {
-    return std::sqrt(square_error_sum_ / (2.0 * static_cast<double>(std::max<std::int64_t>(1, steps_))));
+    return std::sqrt(square_error_sum_ /
+                     (2.0 * static_cast<double>(std::max<std::int64_t>(1, steps_))));
 }
 
 }  // namespace grainfield::triaxial

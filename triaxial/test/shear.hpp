@@ -23,10 +23,10 @@ class ShearStage {
 
     const std::vector<CurvePoint>& curve() const { return curve_; }
     const std::string& end_reason() const { return end_reason_; }
-    std::int64_t steps() const { return steps_; }               ///< [-]
-    double time() const { return time_; }                       ///< [s]
-    double lateral_rms_error() const;                           ///< over all steps [-]
-    double lateral_max_error() const { return max_error_; }     ///< at recorded points [-]
+    std::int64_t steps() const { return steps_; }            ///< [-]
+    double time() const { return time_; }                    ///< [s]
+    double lateral_rms_error() const;                        ///< over all steps [-]
+    double lateral_max_error() const { return max_error_; }  ///< at recorded points [-]
 
   private:
     void start_affine();

@@ -77,8 +77,8 @@ TestResult run_test(core::Simulation& simulation, const Config& config, core::Mo
     result.results = evaluate_curve(result.curve, config.triaxial.confining_stress);
     for (const CurvePoint& p : result.curve) {
         if (p.deviator_stress > 0.5 * result.results.peak_deviator_stress) break;
-        result.lowest_start_ratio =
-            std::min(result.lowest_start_ratio, p.deviator_stress / config.triaxial.confining_stress);
+        result.lowest_start_ratio = std::min(result.lowest_start_ratio,
+                                             p.deviator_stress / config.triaxial.confining_stress);
     }
     result.shear_seconds = seconds_since(start);
     return result;

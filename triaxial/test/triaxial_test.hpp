@@ -24,18 +24,18 @@ struct TestResult {
     std::vector<CurvePoint> curve;
     std::string end_reason;
 
-    double porosity = 0;             ///< before compression, in the box [-]
-    double sheared_porosity = 0;     ///< when shear begins [-]
-    std::int64_t contacts = 0;       ///< when shear begins [-]
-    core::Fabric fabric;             ///< when shear begins
+    double porosity = 0;                                ///< before compression, in the box [-]
+    double sheared_porosity = 0;                        ///< when shear begins [-]
+    std::int64_t contacts = 0;                          ///< when shear begins [-]
+    core::Fabric fabric;                                ///< when shear begins
     std::int64_t isotropic_steps = 0, shear_steps = 0;  ///< [-]
-    double mean_step = 0;            ///< of the shear stage [s]
-    double inertia_ratio = 1;        ///< inertia over real mass (mass scaling) [-]
-    double lateral_rms_error = 0;    ///< of both lateral stresses over all steps of shear [-]
-    double lateral_max_error = 0;    ///< at any recorded point after 0.1 % of strain [-]
-    double lowest_start_ratio = 0;   ///< smallest q over sigma_3 up to half the peak [-]
-    double inertial_number = 0;      ///< of the shear rate [-]
-    double isotropic_unbalanced = 0; ///< at the end of the isotropic stage [-]
+    double mean_step = 0;                               ///< of the shear stage [s]
+    double inertia_ratio = 1;           ///< inertia over real mass (mass scaling) [-]
+    double lateral_rms_error = 0;       ///< of both lateral stresses over all steps of shear [-]
+    double lateral_max_error = 0;       ///< at any recorded point after 0.1 % of strain [-]
+    double lowest_start_ratio = 0;      ///< smallest q over sigma_3 up to half the peak [-]
+    double inertial_number = 0;         ///< of the shear rate [-]
+    double isotropic_unbalanced = 0;    ///< at the end of the isotropic stage [-]
     double isotropic_stress_error = 0;  ///< largest of the six walls then [-]
     double isotropic_seconds = 0, shear_seconds = 0;  ///< wall time [s]
 };

@@ -1,0 +1,128 @@
+// The lists must never miss a contact, however walls and spheres move between two builds.
+
+#include "core/contact_list.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/core/test_scenes.hpp"
+
+namespace grainfield::core {
+namespace {
+
+/// Touching contacts at the present positions, by brute force.
+std::int64_t true_contacts(const Simulation& sim) {
+    const ParticleStore& s = sim.spheres();
+    std::int64_t count = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        for (std::size_t j = i + 1; j < s.size(); ++j)
+            count += (s.position[j] - s.position[i]).norm() < s.radius[i] + s.radius[j];
+        for (const Wall& wall : sim.walls())
+            count += wall.normal.dot(s.position[i] - wall.point) < s.radius[i];
+    }
+    return count;
+}
+
+Scene box_scene(double speed) {
+    Scene scene = scene_of(loose_balls({5, 5, 5}, 1.05, speed), 0.3);
+    scene.walls = box_walls(loose_box({5, 5, 5}, 1.05), plane(Vec3::Zero(), Vec3::UnitX(), 0.3));
+    return scene;
+}
+
+using Lists = KernelTest;
+
+void expect_complete(Simulation& sim, double step, int steps) {
+    for (int k = 0; k < steps; ++k) {
+        sim.compute_forces();
+        ASSERT_EQ(sim.touching_contacts(), true_contacts(sim)) << "step " << k;
+        sim.advance(step);
+    }
+}
+
+TEST_P(Lists, NoContactIsMissedInACompressedBox) {
+    for (double skin : {0.0, 0.5 * test_radius}) {
+        Simulation sim(box_scene(0.5), table(), {.skin = skin});
+        sim.set_wall_velocity(0, Vec3(0.3, 0, 0));
+        sim.set_wall_velocity(1, Vec3(-0.2, 0, 0));
+        sim.set_wall_velocity(3, Vec3(0, -0.4, 0));
+        expect_complete(sim, 2e-4, 800);
+        EXPECT_GT(sim.touching_contacts(), 50);
+        EXPECT_LT(sim.contacts().builds(), 400);
+    }
+}
+
+TEST_P(Lists, NoContactIsMissedWhenTheWholeBoxTravels) {
+    Simulation sim(box_scene(0.1), table());
+    for (std::size_t w = 0; w < 6; ++w) sim.set_wall_velocity(w, Vec3(0.7, -0.3, 0.2));
+    expect_complete(sim, 2e-4, 800);
+}
+
+TEST_P(Lists, NoContactIsMissedAtASkewWallInATravellingBox) {
+    // The spheres travel with the box and are at rest in it; a skew wall stands still.
+    Scene scene = scene_of({Ball{.x = Vec3(0.2, 0.2, 0.2), .v = Vec3(1, 0, 0)}});
+    scene.walls =
+        box_walls({Vec3::Zero(), Vec3::Constant(0.4)}, plane(Vec3::Zero(), Vec3::UnitX()));
+    scene.walls.push_back(plane(Vec3(0.33, 0.2, 0.2), Vec3(-1, 0.1, 0)));
+    for (std::size_t w : {0u, 1u}) scene.walls[w].velocity = Vec3(1, 0, 0);
+    Simulation sim(std::move(scene), table());
+    expect_complete(sim, 1e-3, 150);
+}
+
+TEST_P(Lists, NoContactIsMissedWhenAWallIsPutElsewhere) {
+    Simulation sim(box_scene(0.0), table(), {.skin = 0.2 * test_radius});
+    run_steps(sim, 1e-4, 3);
+    sim.set_wall_point(3, sim.walls()[3].point - Vec3(0, 1.2 * test_radius, 0));
+    sim.compute_forces();
+    EXPECT_GT(true_contacts(sim), 20);
+    EXPECT_EQ(sim.touching_contacts(), true_contacts(sim));
+}
+
+TEST_P(Lists, ContactsKeepTheirHistoryOverARebuild) {
+    Scene scene = scene_of({Ball{}, Ball{.x = Vec3(1.99 * test_radius, 0, 0)}}, 10.0);
+    scene.walls = {plane(Vec3(0, -0.999 * test_radius, 0), Vec3::UnitY(), 10.0)};
+    Simulation sim(std::move(scene), table());
+    sim.compute_forces();
+    ASSERT_TRUE(sim.contacts().restore(0, 1, Vec3(0, 3, 4)));
+    ASSERT_TRUE(sim.contacts().restore(1, -1, Vec3(1, 0, 2)));
+    EXPECT_FALSE(sim.contacts().restore(0, -2, Vec3::Zero()));
+    for (double skin : {0.5, 0.01}) {
+        sim.contacts().build(sim.spheres(), sim.walls(), skin * test_radius);
+        ASSERT_EQ(sim.contacts().size(), 3u);
+        EXPECT_EQ(sim.contacts().shear(0), Vec3(0, 3, 4));
+        EXPECT_EQ(sim.contacts().shear(1), Vec3::Zero());
+        EXPECT_EQ(sim.contacts().shear(2), Vec3(1, 0, 2));
+    }
+}
+
+TEST_P(Lists, ReplacedWallsForgetTheirHistory) {
+    Scene scene = scene_of({Ball{}}, 1.0);
+    const Wall floor = plane(Vec3(0, -0.999 * test_radius, 0), Vec3::UnitY(), 1.0);
+    scene.walls = {floor};
+    Simulation sim(std::move(scene), table());
+    sim.compute_forces();
+    ASSERT_TRUE(sim.contacts().restore(0, -1, Vec3(1e-3, 0, 0)));
+    sim.set_walls({floor, plane(Vec3(-1, 0, 0), Vec3::UnitX())});
+    sim.compute_forces();
+    EXPECT_EQ(sim.touching_contacts(), 1);
+    EXPECT_EQ(sim.contacts().shear(0), Vec3::Zero());
+}
+
+TEST_P(Lists, ComputingForcesTwiceChangesNothing) {
+    Scene scene = scene_of({Ball{.v = Vec3(0.1, 0, 0), .w = Vec3(0, 0, 3)}}, 0.5);
+    scene.walls = {plane(Vec3(0, -0.99 * test_radius, 0), Vec3::UnitY(), 0.5)};
+    Simulation sim(std::move(scene), table(), {.ledger = true});
+    run_steps(sim, 1e-4, 1);
+    sim.compute_forces();
+    const Vec3 shear = sim.contacts().shear(0);
+    const double closing = sim.energy().closing();
+    EXPECT_GT(shear.norm(), 0.0);
+    sim.compute_forces(true);
+    EXPECT_EQ(sim.contacts().shear(0), shear);
+    EXPECT_EQ(sim.energy().closing(), closing);
+}
+
+GRAINFIELD_FOR_ALL_KERNELS(Lists);
+
+}  // namespace
+}  // namespace grainfield::core

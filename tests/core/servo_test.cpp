@@ -1,0 +1,124 @@
+// Servo walls hold their stress while another wall moves, and never exceed their speed.
+
+#include "core/servo.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/driver.hpp"
+#include "core/measures.hpp"
+#include "tests/core/test_scenes.hpp"
+
+namespace grainfield::core {
+namespace {
+
+constexpr double target = 2000;  // K_n/(stress R) = 250: firm grains [Pa]
+
+struct Silent : Monitor {};
+
+Scene loose_sample() {
+    Scene scene = scene_of(loose_balls({7, 7, 7}, 1.02, 0.2), 0.5);
+    scene.walls = box_walls(loose_box({7, 7, 7}, 1.02), plane(Vec3::Zero(), Vec3::UnitX()));
+    scene.damping = {0.2, 0.2};
+    return scene;
+}
+
+double face(const Simulation& sim, int axis) {
+    const auto length = [&](int a) {
+        return sim.walls()[2 * a + 1].point[a] - sim.walls()[2 * a].point[a];
+    };
+    return length((axis + 1) % 3) * length((axis + 2) % 3);
+}
+
+using Servo = KernelTest;
+
+TEST_P(Servo, HoldsTheStressWhileTheLidMovesAndKeepsItsSpeedLimit) {
+    Simulation sim(loose_sample(), table());
+    Silent monitor;
+    Driver driver(sim, {.step = std::nullopt}, monitor);
+    const double cap = 0.2;
+    std::vector<WallServo> servos;
+    for (std::size_t w = 0; w < 6; ++w) servos.push_back({w, {.stress = target, .max_speed = cap}});
+    double fastest = 0;
+    std::array<double, 6> error{};
+    const auto steer = [&](std::initializer_list<std::size_t> walls, double step) {
+        for (std::size_t w : walls) {
+            error[w] = servos[w].steer(sim, face(sim, static_cast<int>(w / 2)), step);
+            fastest = std::max(fastest, sim.walls()[w].velocity.norm());
+        }
+    };
+    int still = 0;
+    for (int k = 0; k < 60000 && still < 100; ++k) {
+        driver.step(true, [&](double step) { steer({0, 1, 2, 3, 4, 5}, step); });
+        const double worst =
+            std::abs(*std::max_element(error.begin(), error.end(), [](double a, double b) {
+                return std::abs(a) < std::abs(b);
+            }));
+        still = worst < 2e-3 && sim.unbalanced_force_ratio() < 1e-3 ? still + 1 : 0;
+    }
+    ASSERT_EQ(still, 100) << "not consolidated: " << sim.unbalanced_force_ratio();
+    EXPECT_EQ(fastest, cap);  // it was reached, and it is a cap
+    // The mean stress inside is what the walls hold.
+    const double volume = face(sim, 0) * (sim.walls()[1].point.x() - sim.walls()[0].point.x());
+    sim.compute_forces();
+    const Eigen::Matrix3d stress = mean_stress(sim, volume);
+    for (int a = 0; a < 3; ++a) EXPECT_NEAR(stress(a, a), target, 0.005 * target);
+
+    // Shear: the lid comes down by 0.1 % of the height a second (inertial number 1e-4), the sides
+    // hold; the bottom stands.
+    sim.set_wall_velocity(2, Vec3::Zero());
+    const double height = sim.walls()[3].point.y() - sim.walls()[2].point.y();
+    double square = 0, worst = 0;
+    const int n = 6000;
+    const double start = sim.time();
+    for (int k = 0; k < n; ++k) {
+        driver.step(true, [&](double step) {
+            sim.set_wall_velocity(3, Vec3(0, -0.001 * height, 0));
+            steer({0, 1, 4, 5}, step);
+        });
+        for (std::size_t w : {0u, 1u, 4u, 5u}) {
+            square += error[w] * error[w] / (4 * n);
+            if (k > n / 10) worst = std::max(worst, std::abs(error[w]));
+        }
+    }
+    EXPECT_LT(std::sqrt(square), 0.005);
+    EXPECT_LT(worst, 0.05);  // 343 spheres: one contact of the 49 at a wall opening is a jolt
+    EXPECT_LE(fastest, cap);
+    RecordProperty("rms", std::to_string(std::sqrt(square)));
+    RecordProperty("worst", std::to_string(worst));
+    RecordProperty("strain", std::to_string(0.001 * (sim.time() - start)));
+    // It bears more along y than across.
+    EXPECT_GT(wall_compression(sim, 3) / face(sim, 1), 1.5 * target);
+}
+
+TEST_P(Servo, ClosesAGapAtItsSpeedAndAnswersOneSphereExactly) {
+    // A sphere between a fixed and a servo wall: one spring, whose answer is known.
+    const double k = 0.5 * test_radius * test_stiffness, area = 0.01, stress = 3000, step = 1e-4;
+    Scene scene = scene_of({Ball{.x = Vec3(0, test_radius, 0)}});
+    scene.walls = {plane(Vec3::Zero(), Vec3::UnitY()),
+                   plane(Vec3(0, 2.01 * test_radius, 0), -Vec3::UnitY())};
+    scene.damping = {0.2, 0.2};
+    Simulation sim(std::move(scene), table());
+    WallServo servo(1, {.stress = stress, .max_speed = 0.05});
+    sim.compute_forces();
+    EXPECT_EQ(servo.steer(sim, area, step), -1.0);
+    EXPECT_EQ(sim.walls()[1].velocity, Vec3(0, -0.05, 0));
+    for (int n = 0; n < 20000; ++n) {
+        sim.compute_forces();
+        servo.steer(sim, area, step);
+        ASSERT_LE(sim.walls()[1].velocity.norm(), 0.05);
+        sim.advance(step);
+    }
+    sim.compute_forces();
+    EXPECT_NEAR(wall_compression(sim, 1), stress * area, 1e-9 * stress * area);
+    EXPECT_NEAR(sim.walls()[1].point.y(), 2 * test_radius - 2 * stress * area / k, 1e-9);
+}
+
+GRAINFIELD_FOR_ALL_KERNELS(Servo);
+
+}  // namespace
+}  // namespace grainfield::core

@@ -1,0 +1,168 @@
+// What the watch over a run must notice, and what may not even be started.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "core/driver.hpp"
+#include "core/errors.hpp"
+#include "core/scene.hpp"
+#include "tests/core/test_scenes.hpp"
+
+namespace grainfield::core {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+struct TestMonitor : Monitor {
+    bool stop = false;
+    bool stop_requested() const override { return stop; }
+};
+
+/// Ten spheres apart from each other above a floor.
+Scene quiet_scene() {
+    std::vector<Ball> balls;
+    for (int k = 0; k < 10; ++k) balls.push_back({.x = Vec3(3 * k * test_radius, test_radius, 0)});
+    Scene scene = scene_of(balls, 0.5);
+    scene.walls = {plane(Vec3::Zero(), Vec3::UnitY(), 0.5)};
+    return scene;
+}
+
+using Watch = KernelTest;
+
+/// Runs until it fails; the message must name the sphere. Returns it.
+std::string failure(Scene scene, const kernels::KernelTable& table, const std::string& sphere,
+                    double step, const std::function<void(Simulation&)>& spoil) {
+    TestMonitor monitor;
+    Simulation sim(std::move(scene), table);
+    Driver driver(sim, {.step = step}, monitor);
+    const auto no_steering = [](double) {};
+    for (int k = 0; k < 10; ++k) driver.step(false, no_steering);
+    spoil(sim);
+    try {
+        for (int k = 0; k < Driver::watch_interval; ++k) driver.step(false, no_steering);
+    } catch (const SimulationError& error) {
+        const std::string what = error.what();
+        EXPECT_NE(what.find("sphere " + sphere), std::string::npos) << what;
+        return what;
+    }
+    ADD_FAILURE() << "not noticed within " << Driver::watch_interval << " steps";
+    return "";
+}
+
+TEST_P(Watch, NamesTheSphereWithANaN) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string what = failure(quiet_scene(), table(), "7", 1e-4, [&](Simulation& sim) {
+            sim.add_velocity(7, not_a_number * Vec3::Unit(axis));
+        });
+        EXPECT_NE(what.find("not a number"), std::string::npos) << what;
+    }
+    failure(quiet_scene(), table(), "4", 1e-4, [&](Simulation& sim) {
+        sim.add_velocity(4, Vec3(0, std::numeric_limits<double>::infinity(), 0));
+    });
+}
+
+TEST_P(Watch, NamesTheSphereThatMovesTooFarInAStep) {
+    const std::string what = failure(quiet_scene(), table(), "3", 1e-4, [](Simulation& sim) {
+        sim.add_velocity(3, Vec3(0, 0, 0.6 * test_radius / 1e-4));
+    });
+    EXPECT_NE(what.find("more than half its radius"), std::string::npos) << what;
+}
+
+TEST_P(Watch, NamesTheSphereLostBehindAWall) {
+    const std::string what = failure(quiet_scene(), table(), "5", 1e-4, [](Simulation& sim) {
+        sim.add_velocity(5, Vec3(0, -0.4 * test_radius / 1e-4, 0));
+    });
+    EXPECT_NE(what.find("lost"), std::string::npos) << what;
+}
+
+TEST_P(Watch, NamesASphereFarBehindAWall) {
+    Scene scene = quiet_scene();
+    scene.spheres.position.y[9] = -50.0;  // never near the wall in the run
+    failure(std::move(scene), table(), "9", 1e-4, [](Simulation&) {});
+}
+
+TEST_P(Watch, NamesTheSpheresThatOverlapTooMuch) {
+    Scene scene = quiet_scene();
+    scene.spheres.position.set(6, scene.spheres.position[5] + Vec3(1.3 * test_radius, 0, 0));
+    scene.spheres.normal_stiffness[5] = scene.spheres.normal_stiffness[6] = 1.0;
+    const std::string what = failure(std::move(scene), table(), "5", 1e-4, [](Simulation&) {});
+    EXPECT_NE(what.find("sphere 6"), std::string::npos) << what;
+    EXPECT_NE(what.find("overlap"), std::string::npos) << what;
+}
+
+TEST_P(Watch, StopsWhenAskedTo) {
+    TestMonitor monitor;
+    Simulation sim(quiet_scene(), table());
+    Driver driver(sim, {.step = 1e-4}, monitor);
+    monitor.stop = true;
+    EXPECT_THROW(
+        {
+            for (int k = 0; k < Driver::watch_interval; ++k) driver.step(false, [](double) {});
+        },
+        Interrupted);
+}
+
+TEST_P(Watch, UnstableStepIsNoticed) {
+    Scene scene = quiet_scene();
+    scene.spheres.position.set(6, scene.spheres.position[5] + Vec3(1.99 * test_radius, 0, 0));
+    TestMonitor monitor;
+    Simulation sim(std::move(scene), table());
+    const double omega = std::sqrt(test_radius * test_stiffness / sphere_mass(test_radius));
+    sim.set_walls(
+        box_walls({Vec3(-1, 0, -0.05), Vec3(3, 0.1, 0.05)}, plane(Vec3::Zero(), Vec3::UnitX())));
+    sim.set_gravity(Vec3(1, -9.81, 2));
+    Driver driver(sim, {.step = 4.0 / omega}, monitor);
+    EXPECT_THROW(
+        {
+            for (int k = 0; k < 5000; ++k) driver.step(false, [](double) {});
+        },
+        SimulationError);
+}
+
+/// The message of check_start.
+std::string start_error(const Scene& scene) {
+    try {
+        check_start(scene, "a.csv");
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("a.csv"), std::string::npos) << error.what();
+        return error.what();
+    }
+    return "";
+}
+
+TEST(CheckStart, TakesGoodScenesAndNamesWhatIsWrong) {
+    EXPECT_EQ(start_error(quiet_scene()), "");
+    EXPECT_NE(start_error(Scene{}), "");
+    const auto spoilt = [](const std::function<void(ParticleStore&)>& spoil) {
+        Scene scene = quiet_scene();
+        spoil(scene.spheres);
+        return start_error(scene);
+    };
+    for (double radius : {0.0, -1.0, not_a_number, std::numeric_limits<double>::infinity()})
+        EXPECT_NE(spoilt([&](auto& s) { s.radius[8] = radius; }).find("sphere 8"),
+                  std::string::npos);
+    EXPECT_NE(spoilt([](auto& s) { s.position.x[2] = not_a_number; }).find("sphere 2"),
+              std::string::npos);
+    EXPECT_NE(spoilt([](auto& s) { s.spin.z[2] = not_a_number; }).find("sphere 2"),
+              std::string::npos);
+    // Ten per cent of overlap may be, more may not.
+    EXPECT_EQ(spoilt([](auto& s) { s.position.y[2] = 0.91 * test_radius; }), "");
+    EXPECT_NE(spoilt([](auto& s) { s.position.y[2] = 0.89 * test_radius; }).find("wall 0"),
+              std::string::npos);
+    EXPECT_EQ(spoilt([](auto& s) { s.position.x[2] = 1.91 * test_radius + s.position.x[1]; }), "");
+    const std::string overlap =
+        spoilt([](auto& s) { s.position.x[2] = 1.89 * test_radius + s.position.x[1]; });
+    EXPECT_NE(overlap.find("spheres 1 and 2"), std::string::npos) << overlap;
+    for (double mass : {0.0, -1.0, not_a_number})
+        EXPECT_NE(spoilt([&](auto& s) { s.mass[4] = mass; }).find("sphere 4"), std::string::npos)
+            << "mass " << mass;
+}
+
+GRAINFIELD_FOR_ALL_KERNELS(Watch);
+
+}  // namespace
+}  // namespace grainfield::core
