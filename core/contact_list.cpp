@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "core/neighbour_search.hpp"
@@ -29,15 +30,18 @@ std::vector<kernels::WallPair> find_wall_pairs(const ParticleStore& spheres,
     return found;
 }
 
-std::vector<std::size_t> ranges_of(std::span<const kernels::WallPair> pairs) {
+/// Starts of the runs of equal `key` in a sorted list, and its end.
+template <class Entry, class Key>
+std::vector<std::size_t> ranges_of(const std::vector<Entry>& list, const Key& key) {
     std::vector<std::size_t> starts{0};
-    const auto chunk = [&](std::size_t c) {
-        return static_cast<std::size_t>(pairs[c].sphere) / chunk_size;
-    };
-    for (std::size_t c = 1; c < pairs.size(); ++c)
-        if (pairs[c].wall != pairs[c - 1].wall || chunk(c) != chunk(c - 1)) starts.push_back(c);
-    if (!pairs.empty()) starts.push_back(pairs.size());
+    for (std::size_t c = 1; c < list.size(); ++c)
+        if (key(list[c]) != key(list[c - 1])) starts.push_back(c);
+    if (!list.empty()) starts.push_back(list.size());
     return starts;
+}
+
+std::size_t chunk_of(std::int32_t sphere) {
+    return static_cast<std::size_t>(sphere) / chunk_size;
 }
 
 }  // namespace
@@ -56,7 +60,10 @@ void ContactList::build(const ParticleStore& spheres, std::span<const Wall> wall
 
     pairs_ = find_pairs(spheres.position, spheres.radius, skin);
     wall_pairs_ = find_wall_pairs(spheres, walls, skin);
-    wall_ranges_ = ranges_of(wall_pairs_);
+    pair_ranges_ = ranges_of(pairs_, [](const kernels::Pair& p) { return chunk_of(p.i); });
+    wall_ranges_ = ranges_of(wall_pairs_, [](const kernels::WallPair& p) {
+        return std::pair(p.wall, chunk_of(p.sphere));
+    });
     shear_.assign(size(), Vec3::Zero());
     touching_.assign(size(), 0);
     force_.resize(size());

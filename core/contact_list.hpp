@@ -17,8 +17,10 @@ class ContactList {
     std::span<const kernels::WallPair> wall_pairs() const { return wall_pairs_; }
     std::size_t size() const { return pairs_.size() + wall_pairs_.size(); }
 
-    /// Starts of the ranges of wall_pairs() whose loads are added up apart, and the end of the
-    /// last. A range is one wall's spheres of one chunk: its sum does not depend on the skin.
+    /// Starts of the ranges of pairs() whose sums are added up apart, and the end of the last. A
+    /// range holds the pairs of one chunk of first spheres: its sum does not depend on the skin.
+    std::span<const std::size_t> pair_ranges() const { return pair_ranges_; }
+    /// The same for wall_pairs(): one wall's spheres of one chunk.
     std::span<const std::size_t> wall_ranges() const { return wall_ranges_; }
 
     /// Columns of the sphere pairs, indexed like pairs().
@@ -62,7 +64,7 @@ class ContactList {
 
     std::vector<kernels::Pair> pairs_;
     std::vector<kernels::WallPair> wall_pairs_;
-    std::vector<std::size_t> wall_ranges_{0};
+    std::vector<std::size_t> pair_ranges_{0}, wall_ranges_{0};
     Column<Vec3> shear_, force_, moment_;
     Column<std::uint8_t> touching_;
     std::vector<std::uint32_t> offsets_;

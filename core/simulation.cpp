@@ -95,10 +95,15 @@ void Simulation::compute_forces(bool sums) {
         friction_.empty() ? 0.0 : friction_[0], elapsed()};
     const kernels::PairKernel pair_kernel = kernels_->pairs({has_friction_, per_sphere_, sums});
     const auto pairs = contacts_.pairs();
-    contact_sums_ =
-        sum_chunks<kernels::ContactSums>(pairs.size(), [&](std::size_t begin, std::size_t end) {
-            return pair_kernel(s, pairs.data(), pair_columns, parameters, begin, end);
-        });
+    // Sums run over ranges that do not depend on the skin.
+    const auto ranges = contacts_.pair_ranges();
+    std::vector<kernels::ContactSums> partial(ranges.size() - 1);
+    for_pieces(partial.size(), [&](std::size_t c) {
+        partial[c] =
+            pair_kernel(s, pairs.data(), pair_columns, parameters, ranges[c], ranges[c + 1]);
+    });
+    contact_sums_ = {};
+    for (const kernels::ContactSums& p : partial) contact_sums_ += p;
     wall_forces(sums);
     if (options_.ledger) friction_work_ += contact_sums_.friction_work;
 

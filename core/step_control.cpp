@@ -10,16 +10,20 @@ namespace {
 /// Steps between two estimates. A contact that forms takes several steps to matter, and safety
 /// leaves room for one more spring on the worst sphere.
 std::int64_t estimate_interval(std::size_t spheres) {
-    return spheres > 20000 ? 100 : 20;
+    return spheres > 20000 ? 200 : 20;
 }
 
-constexpr int full_rounds = 5;    // of Lanczos, from scratch
-constexpr int update_rounds = 1;  // starting from the last mode
+constexpr int full_rounds = 5;                             // of Lanczos, from scratch
+constexpr int update_rounds = 1;                           // starting from the last mode
+constexpr int full_iterations = 8, update_iterations = 5;  // a round
 
 }  // namespace
 
 double StepControl::frequency(const Simulation& simulation, int rounds) {
-    return std::max(estimator_.estimate(simulation, rounds), isolated_frequency(simulation));
+    return std::max(
+        estimator_.estimate(simulation, rounds,
+                            rounds == full_rounds ? full_iterations : update_iterations),
+        isolated_frequency(simulation));
 }
 
 double StepControl::next(Simulation& simulation) {

@@ -22,10 +22,11 @@ constexpr double shaking_frequency = 15.0;    // [1/s]
 constexpr double bout = 0.25;                 // of shaking, between two looks at the lid [s]
 constexpr double lid_stress_share = 1.0;      // lid stress over the block's own weight's [-]
 constexpr double stalled = 2e-3;              // a bout that lowers the lid less, of b_y [-]
-constexpr double friction_factor = 0.7;       // the friction angle goes down by this when stalled
-constexpr double lowest_friction = 2e-3;      // below this: none [rad]
-constexpr double porosity_tolerance = 2e-3;   // of the block [-]
-constexpr double rest = 1e-3;                 // unbalanced force ratio of a settled state [-]
+constexpr int patience = 3;  // stalled bouts in a row before the friction is lowered [-]
+constexpr double friction_factor = 0.7;      // the friction angle goes down by this when stalled
+constexpr double lowest_friction = 2e-3;     // below this: none [rad]
+constexpr double porosity_tolerance = 2e-3;  // of the block [-]
+constexpr double rest = 1e-3;                // unbalanced force ratio of a settled state [-]
 
 /// A wall deforms like half of the contact with a mirror image: infinitely stiff, it gives the
 /// same force at the same overlap on this side of the mirror plane, so that the block stays in
@@ -201,7 +202,7 @@ Block pack_block(const PackingOptions& options, const Grading& grading, const Ma
     const auto lower_friction = [&] {
         friction = friction * friction_factor < lowest_friction ? 0.0 : friction * friction_factor;
     };
-    for (int failed_at_rest = 0;;) {
+    for (int failed_at_rest = 0, stalled_bouts = 0;;) {
         const double before = packer.lid_height();
         packer.shake(friction);
         const double now = packer.lid_height();
@@ -209,7 +210,9 @@ Block pack_block(const PackingOptions& options, const Grading& grading, const Ma
             -1, simulation.steps(),
             fmt::format("porosity {:.4f}, friction {:.3f} rad", packer.porosity(now), friction));
         if (now > options.block.y()) {
-            if (before - now < stalled * options.block.y()) {
+            stalled_bouts = before - now < stalled * options.block.y() ? stalled_bouts + 1 : 0;
+            if (stalled_bouts == patience) {
+                stalled_bouts = 0;
                 if (friction == 0.0)
                     throw InputError(
                         fmt::format("packing.porosity = {:g}: cannot be reached with this grading "

@@ -10,7 +10,8 @@ namespace grainfield::packing {
 namespace {
 
 constexpr std::uint64_t most_draws = 64;
-constexpr double close_enough = 3.0;  // deviation of the curve at any sieve [% of mass]
+constexpr std::int32_t neighbourhood = 16;  // of the bisected count that is searched [-]
+constexpr double close_enough = 3.0;        // deviation of the curve at any sieve [% of mass]
 
 double volume(const std::vector<double>& diameters) {
     double cubes = 0;
@@ -77,15 +78,19 @@ GradingDraw draw_diameters(const Grading& grading, double target_volume, std::ui
             worst = std::max(worst, std::abs(achieved[k] - grading.passing[k]));
         return worst;
     };
-    // The volume of n stratified grains grows with n but for small jumps of the largest.
+    // The volume of n stratified grains grows with n but for small jumps of the largest: bisect,
+    // then look around.
     const double expected =
         target_volume / (std::numbers::pi / 6 * distribution.mean_cube(0.0, 1.0));
     const auto count_for_volume = [&](std::uint64_t attempt) {
+        std::int32_t low = 1, high = static_cast<std::int32_t>(std::ceil(2.5 * expected)) + 4;
+        while (high - low > 1) {
+            const std::int32_t middle = low + (high - low) / 2;
+            (volume(draw(attempt, middle)) < target_volume ? low : high) = middle;
+        }
         double best = HUGE_VAL;
         std::int32_t n = 1;
-        const auto last = static_cast<std::int32_t>(std::ceil(2.5 * expected)) + 4;
-        for (std::int32_t k = std::max(1, static_cast<std::int32_t>(0.3 * expected)); k <= last;
-             ++k) {
+        for (std::int32_t k = std::max(1, low - neighbourhood); k <= high + neighbourhood; ++k) {
             const double miss = std::abs(volume(draw(attempt, k)) - target_volume);
             if (miss >= best) continue;
             best = miss;

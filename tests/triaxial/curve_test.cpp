@@ -68,7 +68,7 @@ TEST(Curve, NoPositiveStressIsAnError) {
 
 /// Strain at which the watch ends the test, and its reason.
 std::pair<double, std::string> ended(const std::vector<CurvePoint>& curve) {
-    PeakWatch watch;
+    PeakWatch watch(100e3);
     for (const CurvePoint& p : curve)
         if (watch.past_peak(p)) return {p.axial_strain, watch.reason()};
     return {-1, ""};
@@ -115,7 +115,7 @@ TEST(PeakWatch, NoiseEndsATestNeitherEarlyNorNever) {
 }
 
 TEST(PeakWatch, NegativeStartIsNoPeak) {
-    PeakWatch watch;
+    PeakWatch watch(100e3);
     EXPECT_FALSE(watch.past_peak(point(0, -1e3)));
     EXPECT_FALSE(watch.past_peak(point(5e-5, -2e3)));
     EXPECT_FALSE(watch.past_peak(point(1e-4, 5e3)));
@@ -124,7 +124,7 @@ TEST(PeakWatch, NegativeStartIsNoPeak) {
 
 /// Noise in the first points, where q is a small part of what it becomes, ends no test.
 TEST(PeakWatch, NoiseAtTheStartDoesNotEndATest) {
-    PeakWatch watch;
+    PeakWatch watch(100e3);
     EXPECT_FALSE(watch.past_peak(point(0, 40)));
     EXPECT_FALSE(watch.past_peak(point(5e-5, 20))) << watch.reason();
     EXPECT_FALSE(watch.past_peak(point(1e-4, 2e3)));

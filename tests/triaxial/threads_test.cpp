@@ -4,15 +4,22 @@
 #include <omp.h>
 
 #include <string>
+#include <vector>
 
+#include "packing/flip.hpp"
 #include "tests/triaxial/small_test.hpp"
 
 namespace grainfield::triaxial {
 namespace {
 
 TEST(Threads, DoNotChangeTheFinalState) {
-    // More spheres than core::for_chunks() leaves to one thread.
-    const Sample sample = testing::dense_sample(5000);
+    // Mirror images of a small sample: more spheres than core::for_chunks() leaves to one thread.
+    Sample sample = testing::dense_sample(600);
+    for (std::size_t i = 0; i < sample.spheres.size(); ++i)
+        sample.spheres.position.set(i, sample.spheres.position[i] - sample.box.lower);
+    const Vec3 size = sample.box.size();
+    sample.spheres = packing::flip(sample.spheres, sample.spheres, size, {2, 2, 2});
+    sample.box = {Vec3::Zero(), 2 * size};
     Config config = testing::small_config(sample);
     config.triaxial.max_axial_strain = 0.0005;
     const int before = omp_get_max_threads();

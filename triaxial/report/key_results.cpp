@@ -72,7 +72,7 @@ Table results_table(const RunFolder& run) {
 Table sample_table(const RunFolder& run) {
     Builder b("Sample", &run.summary);
     b.number("particles", "Spheres", count);
-    b.number("contacts", "Contacts", count, "at the end of the test");
+    b.number("contacts", "Contacts", count, "when shear began");
     b.number("porosity", "Porosity before compression", plain);
     return b.take();
 }

@@ -8,7 +8,7 @@
 namespace grainfield::triaxial {
 namespace {
 
-constexpr double fallen = 0.05;          // below the peak [-]
+constexpr double fallen = 0.05;          // of the peak or of the confining stress [-]
 constexpr double further_strain = 0.01;  // without a new peak [-]
 constexpr double largest_strain = 0.10;  // [-]
 
@@ -46,8 +46,8 @@ bool PeakWatch::past_peak(const CurvePoint& point) {
         peak_ = point.deviator_stress;
         strain_at_peak_ = point.axial_strain;
     }
-    if (peak_ > 0 && point.deviator_stress < (1 - fallen) * peak_ &&
-        point.axial_strain > strain_at_peak_)
+    const double fall = peak_ - point.deviator_stress;
+    if (fall > fallen * std::max(peak_, confining_stress_))
         reason_ = "the deviator stress fell 5 % below its peak";
     else if (point.axial_strain > strain_at_peak_ + further_strain)
         reason_ = "a further 1 % of strain brought no new peak";

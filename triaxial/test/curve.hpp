@@ -32,10 +32,13 @@ struct CurveResults {
 /// The curve must have a point with q > 0. `confining_stress` [Pa].
 CurveResults evaluate_curve(const std::vector<CurvePoint>& curve, double confining_stress);
 
-/// Decides when a test may end ("auto"): q has fallen 5 % below its peak, or a further 1 % of
-/// strain brought no new peak; never later than 10 %.
+/// Decides when a test may end ("auto"): q has fallen by 5 % of its peak (and by 5 % of the
+/// confining stress, so that noise before q has risen ends nothing), or a further 1 % of strain
+/// brought no new peak; never later than 10 %.
 class PeakWatch {
   public:
+    explicit PeakWatch(double confining_stress) : confining_stress_(confining_stress) {}
+
     /// Takes the next point; true once the peak is surely past or the strain has reached 10 %.
     bool past_peak(const CurvePoint& point);
     /// Why past_peak() was true: "q fell 5 % below its peak", ...
@@ -43,6 +46,7 @@ class PeakWatch {
     double peak() const { return peak_; }  ///< so far [Pa]
 
   private:
+    double confining_stress_;
     double peak_ = 0, strain_at_peak_ = 0;
     const char* reason_ = "";
 };

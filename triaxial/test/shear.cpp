@@ -26,7 +26,8 @@ double affine_poisson_ratio(double lambda) {
 ShearStage::ShearStage(core::Driver& driver, const TriaxialOptions& options)
     : driver_(driver),
       options_(options),
-      start_size_(packing::box_dimensions(driver.simulation())) {
+      start_size_(packing::box_dimensions(driver.simulation())),
+      peak_(options.confining_stress) {
     for (std::size_t wall : {0u, 1u, 4u, 5u})
         servos_.emplace_back(wall, core::WallServo::Options{
                                        .stress = options.confining_stress,
