@@ -6,7 +6,7 @@
 #include "core/files/hdf5_writer.hpp"
 #include "core/files/sphere_formats.hpp"
 #include "core/files/text_file.hpp"
-#include "sample.hpp"
+#include "tests/files/sample.hpp"
 
 namespace grainfield::core {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "sample.hpp"
+#include "tests/files/sample.hpp"
 
 namespace grainfield::core {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "core/errors.hpp"
 #include "core/files/text_file.hpp"
-#include "sample.hpp"
+#include "tests/files/sample.hpp"
 
 namespace grainfield::core {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/files/hdf5_writer.hpp"
 #include "core/files/sphere_formats.hpp"
 #include "core/files/text_file.hpp"
-#include "sample.hpp"
+#include "tests/files/sample.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
 #include <sanitizer/lsan_interface.h>

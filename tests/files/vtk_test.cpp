@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "core/files/text_file.hpp"
-#include "sample.hpp"
+#include "tests/files/sample.hpp"
 
 namespace grainfield::core {
 namespace {
