@@ -17,7 +17,7 @@ class WallServo {
     struct Options {
         double stress = 0;       ///< target, compression positive [Pa]
         double max_speed = 0;    ///< cap of the wall's speed, > 0 [m/s]
-        double gain = 0.8;       ///< share of e/K answered in a step [-]
+        double gain = 0.8;       ///< share of e/K answered in a step; 1 would be all of it [-]
         double integral = 0.02;  ///< growth of the integral part in a step [-]
     };
 
