@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "core/contact_list.hpp"
 #include "core/frequency.hpp"
 #include "core/neighbour_search.hpp"
 #include "core/random.hpp"

@@ -17,15 +17,21 @@ class Driver {
         : simulation_(simulation), control_(time), monitor_(monitor) {}
 
     /// One step; tells the monitor before an error or an interruption leaves it. steer(step) is
-    /// called with forces current, before anything moves; it may set wall velocities, gravity and
-    /// the like. With `sums`, sums over contacts are valid there.
+    /// called with wall loads current and may set wall velocities. With `look` it is called before
+    /// anything moves and sees all of the state, sums over contacts too, and may change what it
+    /// likes; without, spheres may already have moved.
     template <class Steer>
-    void step(bool sums, const Steer& steer) {
+    void step(bool look, const Steer& steer) {
         try {
-            simulation_.compute_forces(sums);
-            const double step = control_.next(simulation_);
-            steer(step);
-            simulation_.advance(step);
+            if (look || control_.due(simulation_)) {
+                simulation_.compute_forces(look);
+                const double step = control_.next(simulation_);
+                steer(step);
+                simulation_.advance(step);
+            } else {
+                const double step = control_.next(simulation_);
+                simulation_.step(step, [&] { steer(step); });
+            }
             if (simulation_.steps() % watch_interval == 0) watch();
         } catch (const SimulationError&) {
             monitor_.ended_early(simulation_);

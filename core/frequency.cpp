@@ -8,41 +8,96 @@
 #include "kernels/contact_law.hpp"
 
 namespace grainfield::core {
-void FrequencyEstimator::assemble(const Simulation& simulation) {
+namespace {
+
+/// Contacts whose two spheres are both this much softer on their mass than the stiffest sphere have
+/// no part in the highest mode, and are left out [-].
+constexpr double softest_part = 0.3;
+
+}  // namespace
+
+std::vector<ContactSpring> contact_springs(const Simulation& simulation) {
     const Scene& scene = simulation.scene();
     const ParticleStore& s = scene.spheres;
-    const ContactList& contacts = simulation.contacts();
-    springs_.clear();
-    bool friction =
+    const bool friction =
         scene.stiffness_ratio > 0 && std::any_of(s.friction_angle.begin(), s.friction_angle.end(),
                                                  [](double f) { return f > 0; });
-    const auto pairs = contacts.pairs();
-    for (std::size_t c = 0; c < pairs.size(); ++c) {
-        if (!contacts.touching(c)) continue;
-        const auto [i, j] = pairs[c];
-        const Vec3 branch = s.position[j] - s.position[i];
-        const double kn = kernels::contact_stiffness(0.5 * (s.radius[i] + s.radius[j]),
-                                                     s.normal_stiffness[i], s.normal_stiffness[j]);
-        springs_.push_back({i, j, branch.normalized(), kn,
-                            friction ? scene.stiffness_ratio * kn : 0.0, s.radius[i], s.radius[j]});
+    const std::vector<TouchingContact> contacts = simulation.touching();
+    std::vector<ContactSpring> springs(contacts.size());
+    for_chunks(contacts.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+            const auto [i, j] = std::pair(contacts[c].i, contacts[c].j);
+            if (j >= 0) {
+                const Vec3 branch = s.position[j] - s.position[i];
+                const double kn = kernels::contact_stiffness(0.5 * (s.radius[i] + s.radius[j]),
+                                                             s.normal_stiffness[i],
+                                                             s.normal_stiffness[j]);
+                springs[c] = {i,           j,           branch.normalized(),
+                              kn,          friction ? scene.stiffness_ratio * kn : 0.0,
+                              s.radius[i], s.radius[j]};
+                continue;
+            }
+            const Wall& wall = scene.walls[static_cast<std::size_t>(-1 - j)];
+            const double k = s.normal_stiffness[i];
+            const double ks_sphere = scene.stiffness_ratio * k;
+            const double ks_wall = wall.stiffness_ratio * wall.normal_stiffness;
+            const bool sticks = friction && wall.friction_angle > 0 && ks_wall > 0;
+            springs[c] = {i,
+                          -1,
+                          -wall.normal,
+                          kernels::contact_stiffness(s.radius[i], k, wall.normal_stiffness),
+                          sticks ? kernels::contact_stiffness(s.radius[i], ks_sphere, ks_wall) : 0,
+                          s.radius[i],
+                          0.0};
+        }
+    });
+    return springs;
+}
+
+namespace {
+
+/// Sum over contacts of stiffness on a sphere, relative to its mass and inertia; bounds its
+/// frequencies with all neighbours held fixed, squared [rad2/s2].
+std::vector<double> stiffness_on_mass(const Simulation& simulation,
+                                      const std::vector<ContactSpring>& springs) {
+    const auto inverse_mass = simulation.inverse_inertial_mass();
+    std::vector<double> sum(simulation.size(), 0.0);
+    for (const ContactSpring& k : springs) {
+        const double stiffness = k.kn + 2 * k.ks;
+        sum[k.i] += stiffness * inverse_mass[k.i];
+        if (k.j >= 0) sum[k.j] += stiffness * inverse_mass[k.j];
     }
-    const auto wall_pairs = contacts.wall_pairs();
-    for (std::size_t c = 0; c < wall_pairs.size(); ++c) {
-        if (!contacts.touching(pairs.size() + c)) continue;
-        const auto [w, i] = wall_pairs[c];
-        const Wall& wall = scene.walls[w];
-        const double k = s.normal_stiffness[i];
-        const double ks_sphere = scene.stiffness_ratio * k;
-        const double ks_wall = wall.stiffness_ratio * wall.normal_stiffness;
-        const bool sticks = friction && wall.friction_angle > 0 && ks_wall > 0;
-        springs_.push_back(
-            {i, -1, -wall.normal, kernels::contact_stiffness(s.radius[i], k, wall.normal_stiffness),
-             sticks ? kernels::contact_stiffness(s.radius[i], ks_sphere, ks_wall) : 0.0,
-             s.radius[i], 0.0});
+    return sum;
+}
+
+}  // namespace
+
+void FrequencyEstimator::assemble(const Simulation& simulation) {
+    springs_ = contact_springs(simulation);
+    const std::vector<double> sum = stiffness_on_mass(simulation, springs_);
+    const double limit = softest_part * *std::max_element(sum.begin(), sum.end());
+    std::erase_if(springs_, [&](const ContactSpring& k) {
+        return sum[k.i] < limit && (k.j < 0 || sum[k.j] < limit);
+    });
+    // Only spheres that take part get a number.
+    std::vector<std::int32_t> number(simulation.size(), -1);
+    std::vector<std::int32_t> spheres;
+    const auto numbered = [&](std::int32_t& i) {
+        if (number[i] < 0) {
+            number[i] = static_cast<std::int32_t>(spheres.size());
+            spheres.push_back(i);
+        }
+        i = number[i];
+    };
+    for (ContactSpring& k : springs_) {
+        numbered(k.i);
+        if (k.j >= 0) numbered(k.j);
     }
-    spheres_ = s.size();
+    if (spheres != sphere_) carry_mode(simulation.size(), spheres);
+    sphere_ = std::move(spheres);
+    spheres_ = sphere_.size();
     offsets_.assign(spheres_ + 1, 0);
-    for (const Spring& spring : springs_) {
+    for (const ContactSpring& spring : springs_) {
         ++offsets_[spring.i + 1];
         if (spring.j >= 0) ++offsets_[spring.j + 1];
     }
@@ -56,9 +111,21 @@ void FrequencyEstimator::assemble(const Simulation& simulation) {
     }
     scale_.resize(2 * spheres_);
     for (std::size_t i = 0; i < spheres_; ++i) {
-        scale_[2 * i] = std::sqrt(simulation.inverse_inertial_mass()[i]);
-        scale_[2 * i + 1] = std::sqrt(simulation.inverse_inertia()[i]);
+        scale_[2 * i] = std::sqrt(simulation.inverse_inertial_mass()[sphere_[i]]);
+        scale_[2 * i + 1] = std::sqrt(simulation.inverse_inertia()[sphere_[i]]);
     }
+}
+
+/// Renumbers the mode found last; spheres that are new start at rest.
+void FrequencyEstimator::carry_mode(std::size_t all, const std::vector<std::int32_t>& spheres) {
+    if (mode_.empty()) return;
+    std::vector<std::int32_t> old(all, -1);
+    for (std::size_t k = 0; k < sphere_.size(); ++k) old[sphere_[k]] = static_cast<std::int32_t>(k);
+    std::vector<double> mode(6 * spheres.size(), 0.0);
+    for (std::size_t k = 0; k < spheres.size(); ++k)
+        if (const std::int32_t from = old[spheres[k]]; from >= 0)
+            std::copy_n(&mode_[6 * static_cast<std::size_t>(from)], 6, &mode[6 * k]);
+    mode_ = std::move(mode);
 }
 
 void FrequencyEstimator::apply(const std::vector<double>& x, std::vector<double>& y) const {
@@ -67,7 +134,7 @@ void FrequencyEstimator::apply(const std::vector<double>& x, std::vector<double>
         for (std::size_t i = begin; i < end; ++i) {
             Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
             for (std::uint32_t e = offsets_[i]; e < offsets_[i + 1]; ++e) {
-                const Spring& k = springs_[incidences_[e] >> 1];
+                const ContactSpring& k = springs_[incidences_[e] >> 1];
                 // Motion of the far body relative to the near one at the contact, seen from i.
                 Vec3 u = -scale_[2 * k.i] * part(6 * k.i);
                 Vec3 roll = k.radius_i * scale_[2 * k.i + 1] * part(6 * k.i + 3);
@@ -92,8 +159,12 @@ void FrequencyEstimator::apply(const std::vector<double>& x, std::vector<double>
     });
 }
 
-void FrequencyEstimator::start_vector(const Simulation& simulation) {
-    const std::vector<double> local = local_square_frequencies(simulation);
+void FrequencyEstimator::start_vector() {
+    std::vector<double> local(spheres_, 0.0);
+    for (const ContactSpring& k : springs_) {
+        local[k.i] += k.kn * scale_[2 * k.i] * scale_[2 * k.i];
+        if (k.j >= 0) local[k.j] += k.kn * scale_[2 * k.j] * scale_[2 * k.j];
+    }
     const double highest = *std::max_element(local.begin(), local.end());
     std::vector<double> start(6 * spheres_);
     double norm2 = 0;
@@ -101,7 +172,8 @@ void FrequencyEstimator::start_vector(const Simulation& simulation) {
         const double weight = std::pow(local[i] / highest, 4);
         for (std::size_t a = 0; a < 6; ++a) {
             // A fixed pattern without symmetry, so that no mode is orthogonal to it by design.
-            const auto code = static_cast<double>((i * 6 + a) * 2654435761u % 1000003u);
+            const auto index = static_cast<std::size_t>(sphere_[i]) * 6 + a;
+            const auto code = static_cast<double>(index * 2654435761u % 1000003u);
             start[6 * i + a] = weight * (code / 500001.5 - 1.0);
             norm2 += start[6 * i + a] * start[6 * i + a];
         }
@@ -160,9 +232,10 @@ double FrequencyEstimator::estimate(const Simulation& simulation, int restarts, 
     assemble(simulation);
     if (springs_.empty()) {
         mode_.clear();
+        sphere_.clear();
         return 0;
     }
-    start_vector(simulation);
+    start_vector();
     double square = 0;
     for (int round = 0; round < restarts; ++round) square = lanczos_round(iterations);
     return std::sqrt(std::max(0.0, square));
@@ -189,42 +262,27 @@ double isolated_frequency(const Simulation& simulation) {
 }
 
 std::vector<double> local_square_frequencies(const Simulation& simulation) {
-    const Scene& scene = simulation.scene();
-    const ParticleStore& s = scene.spheres;
-    const ContactList& contacts = simulation.contacts();
-    const auto pairs = contacts.pairs();
+    const ParticleStore& s = simulation.spheres();
+    std::vector<Eigen::Matrix3d> directions(s.size(), Eigen::Matrix3d::Zero());
+    std::vector<double> shear(s.size(), 0.0);
+    const auto add = [&](std::int32_t i, const ContactSpring& k) {
+        directions[i] += (k.kn - k.ks) * k.normal * k.normal.transpose();
+        directions[i].diagonal().array() += k.ks;
+        shear[i] += k.ks;
+    };
+    for (const ContactSpring& k : contact_springs(simulation)) {
+        add(k.i, k);
+        if (k.j >= 0) add(k.j, k);
+    }
     std::vector<double> local(s.size(), 0.0);
     for_chunks(s.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            Eigen::Matrix3d directions = Eigen::Matrix3d::Zero();
-            double shear = 0;
-            for (std::uint32_t e = contacts.offsets()[i]; e < contacts.offsets()[i + 1]; ++e) {
-                const std::size_t c = contacts.incidences()[e] >> 1;
-                if (!contacts.touching(c)) continue;
-                Vec3 normal;
-                double kn = 0;
-                if (c < pairs.size()) {
-                    const auto [a, b] = pairs[c];
-                    normal = (s.position[b] - s.position[a]).normalized();
-                    kn = kernels::contact_stiffness(0.5 * (s.radius[a] + s.radius[b]),
-                                                    s.normal_stiffness[a], s.normal_stiffness[b]);
-                } else {
-                    const Wall& wall = scene.walls[contacts.wall_pairs()[c - pairs.size()].wall];
-                    normal = wall.normal;
-                    kn = kernels::contact_stiffness(s.radius[i], s.normal_stiffness[i],
-                                                    wall.normal_stiffness);
-                }
-                const double ks = scene.stiffness_ratio * kn;
-                directions += (kn - ks) * normal * normal.transpose();
-                directions.diagonal().array() += ks;
-                shear += ks;
-            }
             const double translation = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>()
-                                           .computeDirect(directions, Eigen::EigenvaluesOnly)
+                                           .computeDirect(directions[i], Eigen::EigenvaluesOnly)
                                            .eigenvalues()[2] *
                                        simulation.inverse_inertial_mass()[i];
             const double rotation =
-                shear * s.radius[i] * s.radius[i] * simulation.inverse_inertia()[i];
+                shear[i] * s.radius[i] * s.radius[i] * simulation.inverse_inertia()[i];
             local[i] = std::max(translation, rotation);
         }
     });

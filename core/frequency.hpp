@@ -8,10 +8,21 @@
 
 namespace grainfield::core {
 
+/// A touching contact as a spring; j < 0 for a wall.
+struct ContactSpring {
+    std::int32_t i, j;
+    Vec3 normal;                ///< from i outwards [-]
+    double kn, ks;              ///< [N/m]
+    double radius_i, radius_j;  ///< [m]
+};
+/// All touching contacts of a simulation, each taken as sticking.
+std::vector<ContactSpring> contact_springs(const Simulation& simulation);
+
 /// Estimates omega_max of the present contacts: translations and rotations, walls included, every
 /// contact taken as sticking (slip only softens). Lanczos iterations on M^-1/2 K M^-1/2, each the
 /// cost of about one force pass; the start vector is weighted towards light and stiffly held
 /// spheres, where the highest modes live, and the last mode found is kept for the next estimate.
+/// Spheres too heavy or too softly held to take part in the highest mode are left out.
 class FrequencyEstimator {
   public:
     /// Upper estimate of omega_max [rad/s]: the largest Ritz value plus its residual. `restarts`
@@ -21,17 +32,12 @@ class FrequencyEstimator {
   private:
     void assemble(const Simulation& simulation);
     void apply(const std::vector<double>& x, std::vector<double>& y) const;
-    void start_vector(const Simulation& simulation);
+    void carry_mode(std::size_t all, const std::vector<std::int32_t>& spheres);
+    void start_vector();
     double lanczos_round(int iterations);
 
-    /// A touching contact; j < 0 for a wall.
-    struct Spring {
-        std::int32_t i, j;
-        Vec3 normal;                // from i outwards [-]
-        double kn, ks;              // [N/m]
-        double radius_i, radius_j;  // [m]
-    };
-    std::vector<Spring> springs_;
+    std::vector<ContactSpring> springs_;        // i, j: numbers of spheres that take part
+    std::vector<std::int32_t> sphere_;          // of each number
     std::vector<std::uint32_t> offsets_;
     std::vector<std::uint32_t> incidences_;  // 2 * spring + side
     std::vector<double> scale_;              // sqrt of inverse mass, inverse inertia: two a sphere

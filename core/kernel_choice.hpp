@@ -6,10 +6,9 @@
 
 namespace grainfield::core {
 
-/// The kernel table for the options. There is one so far, scalar in double precision: it answers
-/// "auto" and "scalar" in both precisions (mixed asks for double where sums are long; double
-/// everywhere is no less), and an instruction set that was asked for by name but is not in this
-/// build is an InputError that names solver.isa and what is allowed.
+/// The kernel table for the options: with isa "auto" the widest vectors that this build has and
+/// this machine runs. "scalar" in double precision is the reference. Throws InputError, naming
+/// solver.isa and what is allowed, if an instruction set was asked for by name and is not there.
 const kernels::KernelTable& choose_kernels(const SolverOptions& options);
 
 }  // namespace grainfield::core

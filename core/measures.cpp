@@ -8,21 +8,16 @@
 namespace grainfield::core {
 
 std::vector<Branch> force_branches(const Simulation& simulation) {
-    const ContactList& contacts = simulation.contacts();
     const ParticleStore& s = simulation.spheres();
-    const auto pairs = contacts.pairs();
     std::vector<Branch> branches;
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-        if (!contacts.touching(c)) continue;
-        if (c < pairs.size()) {
-            const auto [i, j] = pairs[c];
-            branches.push_back({s.position[i], s.position[j], -contacts.force(c)});
+    for (const TouchingContact& c : simulation.touching()) {
+        const Vec3 x = s.position[c.i];
+        if (c.j >= 0) {
+            branches.push_back({x, s.position[c.j], -c.force});
         } else {
-            const auto& [w, i] = contacts.wall_pairs()[c - pairs.size()];
-            const Wall& wall = simulation.walls()[w];
-            const Vec3 x = s.position[i];
+            const Wall& wall = simulation.walls()[static_cast<std::size_t>(-1 - c.j)];
             const Vec3 foot = x - wall.normal.dot(x - wall.point) * wall.normal;
-            branches.push_back({x, foot, -contacts.force(c)});
+            branches.push_back({x, foot, -c.force});
         }
     }
     return branches;
@@ -35,30 +30,18 @@ Eigen::Matrix3d mean_stress(const Simulation& simulation, double volume) {
 }
 
 Fabric measure_fabric(const Simulation& simulation) {
-    const ContactList& contacts = simulation.contacts();
+    const std::vector<TouchingContact> contacts = simulation.touching();
     const ParticleStore& s = simulation.spheres();
-    const auto pairs = contacts.pairs();
     const std::size_t n = s.size();
     Fabric fabric;
     if (n == 0) return fabric;
     std::vector<int> count(n, 0);
     double normals = 0;
-    const auto bodies = [&](std::size_t c, auto&& visit) {
-        if (c < pairs.size())
-            visit(pairs[c].i, pairs[c].j);
-        else
-            visit(contacts.wall_pairs()[c - pairs.size()].sphere, -1);
-    };
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-        if (!contacts.touching(c)) continue;
-        Vec3 normal;
-        bodies(c, [&](std::int32_t i, std::int32_t j) {
-            ++count[i];
-            if (j >= 0) ++count[j];
-            normal = j >= 0
-                         ? Vec3((s.position[j] - s.position[i]).normalized())
-                         : simulation.walls()[contacts.wall_pairs()[c - pairs.size()].wall].normal;
-        });
+    for (const auto& [i, j, shear, force] : contacts) {
+        ++count[i];
+        if (j >= 0) ++count[j];
+        const Vec3 normal = j >= 0 ? Vec3((s.position[j] - s.position[i]).normalized())
+                                   : simulation.walls()[static_cast<std::size_t>(-1 - j)].normal;
         fabric.tensor += normal * normal.transpose();
         normals += 1;
     }
@@ -78,12 +61,8 @@ Fabric measure_fabric(const Simulation& simulation) {
             rattler_volume += v;
         }
     }
-    for (std::size_t c = 0; c < contacts.size(); ++c)
-        if (contacts.touching(c))
-            bodies(c, [&](std::int32_t i, std::int32_t j) {
-                if (count[i] < 4 || (j >= 0 && count[j] < 4)) return;
-                held += j >= 0 ? 2 : 1;
-            });
+    for (const auto& [i, j, shear, force] : contacts)
+        if (count[i] >= 4 && (j < 0 || count[j] >= 4)) held += j >= 0 ? 2 : 1;
     const auto spheres = static_cast<double>(n);
     fabric.coordination_number = contacts_of_all / spheres;
     fabric.rattler_fraction = rattlers / spheres;
@@ -94,12 +73,9 @@ Fabric measure_fabric(const Simulation& simulation) {
 
 double stiffness_sum(const Simulation& simulation, double volume) {
     const ParticleStore& s = simulation.spheres();
-    const ContactList& contacts = simulation.contacts();
-    const auto pairs = contacts.pairs();
     double sum = 0;
-    for (std::size_t c = 0; c < pairs.size(); ++c) {
-        if (!contacts.touching(c)) continue;
-        const auto [i, j] = pairs[c];
+    for (const auto& [i, j, shear, force] : simulation.touching()) {
+        if (j < 0) continue;
         sum += kernels::contact_stiffness(0.5 * (s.radius[i] + s.radius[j]), s.normal_stiffness[i],
                                           s.normal_stiffness[j]) *
                (s.position[j] - s.position[i]).squaredNorm();

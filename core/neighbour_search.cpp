@@ -1,7 +1,6 @@
 #include "core/neighbour_search.hpp"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
@@ -10,63 +9,101 @@
 #include <numeric>
 
 #include "core/parallel.hpp"
+#include "kernels/vector/near_points.hpp"
+#include "kernels/vector/records.hpp"
 
 namespace grainfield::core {
 namespace {
+
+constexpr double cell_size = 2.0;  // of a level's largest diameter: long runs for the vectors [-]
 
 /// The spheres of one level, sorted into cells (counting sort: spheres of a cell are contiguous
 /// and in ascending order).
 struct Grid {
     Vec3 origin = Vec3::Zero();
-    double cell = 0;        // side [m]
-    double max_radius = 0;  // of the level [m]
+    double inverse_cell = 0;  // of the side [1/m]
+    double max_radius = 0;    // of the level [m]
     std::array<std::int64_t, 3> n{1, 1, 1};
     std::vector<std::uint32_t> first;  // of each cell in `spheres`, and one past the last
     std::vector<std::int32_t> spheres;
+    // Centres relative to the origin, and radii, in the order of `spheres` [m]. Single precision:
+    // the search only proposes pairs, with room for round-off; each is then checked in double.
+    std::vector<float> x, y, z, radius;
 
-    std::int64_t coordinate(double x, int axis) const {
-        const auto c = static_cast<std::int64_t>(std::floor((x - origin[axis]) / cell));
-        return std::clamp<std::int64_t>(c, 0, n[static_cast<std::size_t>(axis)] - 1);
+    kernels::PointColumns points() const { return {x.data(), y.data(), z.data(), radius.data()}; }
+
+    std::int64_t coordinate(double place, int axis) const {
+        // In the grid the quotient is not negative: to truncate is to round down.
+        const double quotient = (place - origin[axis]) * inverse_cell;
+        if (!(quotient > 0)) return 0;
+        const auto last = n[static_cast<std::size_t>(axis)] - 1;
+        return quotient < static_cast<double>(last) ? static_cast<std::int64_t>(quotient) : last;
     }
     std::int64_t index(std::int64_t a, std::int64_t b, std::int64_t c) const {
         return a + n[0] * (b + n[1] * c);
     }
-    std::int64_t index(const Vec3& x) const {
-        return index(coordinate(x.x(), 0), coordinate(x.y(), 1), coordinate(x.z(), 2));
+    std::int64_t index(const Vec3& place) const {
+        return index(coordinate(place.x(), 0), coordinate(place.y(), 1),
+                     coordinate(place.z(), 2));
     }
 };
 
 Grid make_grid(const std::vector<std::int32_t>& members, const Vec3Column& x,
-               const Column<double>& radius, double skin) {
+               const Column<double>& radius, double skin, const Box& box) {
     Grid grid;
-    Vec3 lower = Vec3::Constant(std::numeric_limits<double>::max());
-    Vec3 upper = -lower;
-    for (std::int32_t i : members) {
-        lower = lower.cwiseMin(x[i]);
-        upper = upper.cwiseMax(x[i]);
-        grid.max_radius = std::max(grid.max_radius, radius[i]);
-    }
-    grid.origin = lower;
-    grid.cell = 2 * grid.max_radius + skin;
+    for (std::int32_t i : members) grid.max_radius = std::max(grid.max_radius, radius[i]);
+    grid.origin = box.lower;
+    double cell = cell_size * (2 * grid.max_radius + skin);
     // No more cells than twice the spheres: a scene with far outliers gets larger cells.
     const double budget = std::max<double>(64.0, 2.0 * static_cast<double>(members.size()));
-    for (;; grid.cell *= 1.25) {
-        const Vec3 cells = ((upper - lower) / grid.cell).array().floor() + 1.0;
+    for (;; cell *= 1.25) {
+        const Vec3 cells = (box.size() / cell).array().floor() + 1.0;
         if (cells.prod() > budget) continue;
         for (std::size_t a = 0; a < 3; ++a) grid.n[a] = static_cast<std::int64_t>(cells[a]);
         break;
     }
+    grid.inverse_cell = 1 / cell;
     grid.first.assign(static_cast<std::size_t>(grid.n[0] * grid.n[1] * grid.n[2]) + 1, 0);
-    std::vector<std::size_t> cell_of(members.size());
-    for (std::size_t m = 0; m < members.size(); ++m) {
-        cell_of[m] = static_cast<std::size_t>(grid.index(x[members[m]]));
-        ++grid.first[cell_of[m] + 1];
-    }
+    std::vector<std::uint32_t> cell_of(members.size());
+    for_chunks(members.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t m = begin; m < end; ++m)
+            cell_of[m] = static_cast<std::uint32_t>(grid.index(x[members[m]]));
+    });
+    for (const std::uint32_t c : cell_of) ++grid.first[c + 1];
     std::partial_sum(grid.first.begin(), grid.first.end(), grid.first.begin());
     std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
     grid.spheres.resize(members.size());
     for (std::size_t m = 0; m < members.size(); ++m) grid.spheres[next[cell_of[m]]++] = members[m];
+    for (auto* column : {&grid.x, &grid.y, &grid.z, &grid.radius})
+        column->resize(members.size() + kernels::most_lanes);
+    for_chunks(members.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t m = begin; m < end; ++m) {
+            const Vec3 u = x[grid.spheres[m]] - grid.origin;
+            grid.x[m] = static_cast<float>(u.x());
+            grid.y[m] = static_cast<float>(u.y());
+            grid.z[m] = static_cast<float>(u.z());
+            grid.radius[m] = static_cast<float>(radius[grid.spheres[m]]);
+        }
+    });
     return grid;
+}
+
+/// Sorts pairs with i < j, found in any order but always the same, by (i, j).
+std::vector<kernels::Pair> sorted_pairs(const std::vector<std::vector<kernels::Pair>>& found,
+                                        std::size_t n) {
+    std::vector<std::uint32_t> first(n + 1, 0);
+    for (const auto& part : found)
+        for (const kernels::Pair& p : part) ++first[static_cast<std::size_t>(p.i) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<kernels::Pair> pairs(first.back());
+    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+    for (const auto& part : found)
+        for (const kernels::Pair& p : part) pairs[next[static_cast<std::size_t>(p.i)]++] = p;
+    for_chunks(n, [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            std::sort(pairs.begin() + first[i], pairs.begin() + first[i + 1]);
+    });
+    return pairs;
 }
 
 /// Level of a radius: 0 for [r_min, 2 r_min), 1 for [2 r_min, 4 r_min), ...
@@ -84,14 +121,24 @@ std::vector<kernels::Pair> find_pairs(const Vec3Column& x, const Column<double>&
     std::vector<std::vector<std::int32_t>> members(level_of(*largest, *smallest) + 1);
     for (std::size_t i = 0; i < n; ++i)
         members[level_of(radius[i], *smallest)].push_back(static_cast<std::int32_t>(i));
+    Box box{x[0], x[0]};
+    for (std::size_t i = 0; i < n; ++i) {
+        box.lower = box.lower.cwiseMin(x[i]);
+        box.upper = box.upper.cwiseMax(x[i]);
+    }
     std::vector<Grid> grids;
     for (const auto& level : members)
-        grids.push_back(level.empty() ? Grid{} : make_grid(level, x, radius, skin));
+        grids.push_back(level.empty() ? Grid{} : make_grid(level, x, radius, skin, box));
+    // Round-off of three coordinates and two radii in single precision, twice over.
+    const double fuzz =
+        16.0 * std::numeric_limits<float>::epsilon() * (box.size().maxCoeff() + *largest);
+    const auto margin = static_cast<float>(skin + fuzz);
 
     // A pair is found from its smaller level; within a level from its smaller index.
-    std::vector<std::vector<std::uint64_t>> found(chunk_count(n));
+    std::vector<std::vector<kernels::Pair>> found(chunk_count(n));
     tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t chunk) {
-        auto& keys = found[chunk];
+        auto& pairs = found[chunk];
+        std::vector<std::int32_t> near;
         const std::size_t end = std::min(n, (chunk + 1) * chunk_size);
         for (std::size_t i = chunk * chunk_size; i < end; ++i) {
             const Vec3 xi = x[i];
@@ -100,6 +147,7 @@ std::vector<kernels::Pair> find_pairs(const Vec3Column& x, const Column<double>&
                 const Grid& grid = grids[level];
                 if (grid.spheres.empty()) continue;
                 const double range = radius[i] + grid.max_radius + skin;
+                const Eigen::Vector3f here = (xi - grid.origin).cast<float>();
                 std::array<std::int64_t, 3> lo{}, hi{};
                 for (int a = 0; a < 3; ++a) {
                     lo[static_cast<std::size_t>(a)] = grid.coordinate(xi[a] - range, a);
@@ -112,29 +160,24 @@ std::vector<kernels::Pair> find_pairs(const Vec3Column& x, const Column<double>&
                             grid.first[static_cast<std::size_t>(grid.index(lo[0], b, c))];
                         const std::size_t stop =
                             grid.first[static_cast<std::size_t>(grid.index(hi[0], b, c)) + 1];
-                        for (std::size_t m = begin; m < stop; ++m) {
-                            const auto j = static_cast<std::size_t>(grid.spheres[m]);
+                        if (near.size() < stop - begin + kernels::most_lanes)
+                            near.resize(stop - begin + kernels::most_lanes);
+                        const std::size_t count = kernels::find_near(
+                            grid.points(), begin, stop, here.x(), here.y(), here.z(),
+                            static_cast<float>(radius[i]), margin, near.data());
+                        for (std::size_t k = 0; k < count; ++k) {
+                            const auto j = static_cast<std::size_t>(grid.spheres[near[k]]);
                             if (level == own && j <= i) continue;
                             const double reach = radius[i] + radius[j] + skin;
                             if ((x[j] - xi).squaredNorm() < reach * reach)
-                                keys.push_back(std::uint64_t{std::min(i, j)} << 32 |
-                                               std::max(i, j));
+                                pairs.push_back({static_cast<std::int32_t>(std::min(i, j)),
+                                                 static_cast<std::int32_t>(std::max(i, j))});
                         }
                     }
             }
         }
     });
-    std::vector<std::uint64_t> keys;
-    std::size_t total = 0;
-    for (const auto& part : found) total += part.size();
-    keys.reserve(total);
-    for (const auto& part : found) keys.insert(keys.end(), part.begin(), part.end());
-    tbb::parallel_sort(keys.begin(), keys.end());
-    std::vector<kernels::Pair> pairs(keys.size());
-    for (std::size_t k = 0; k < keys.size(); ++k)
-        pairs[k] = {static_cast<std::int32_t>(keys[k] >> 32),
-                    static_cast<std::int32_t>(keys[k] & 0xffffffffu)};
-    return pairs;
+    return sorted_pairs(found, n);
 }
 
 }  // namespace grainfield::core

@@ -6,16 +6,14 @@
 //   [measure; set wall velocities for the coming step; choose its length]
 //   advance(step)      5 move spheres   6 move walls   7 time goes on
 //
-// Results are the same, bit for bit, for any number of threads, any skin and any age of the lists.
+// step() does both at once where nothing but wall velocities is steered in between, to the same
+// bits. Results are the same, bit for bit, for any number of threads.
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "core/contact_list.hpp"
-#include "core/scene.hpp"
-#include "kernels/contact_kernels.hpp"
-#include "kernels/sphere_kernels.hpp"
+#include "core/engine.hpp"
 
 namespace grainfield::core {
 
@@ -35,18 +33,15 @@ struct Energy {
     }
 };
 
-struct SimulationOptions {
-    double skin = 0;      ///< of the candidate list; 0: chosen from the radii [m]
-    bool ledger = false;  ///< keep the works of friction, damping and walls in every step
-};
-
 class Simulation {
   public:
     Simulation(Scene scene, const kernels::KernelTable& kernels, SimulationOptions options = {});
 
-    const Scene& scene() const { return scene_; }
-    const ParticleStore& spheres() const { return scene_.spheres; }
-    std::span<const Wall> walls() const { return scene_.walls; }
+    /// The scene as it is now; spheres' velocities and spins are of mid-step.
+    const Scene& scene() const;
+    const ParticleStore& spheres() const { return scene().spheres; }
+    std::size_t size() const { return world_->size(); }
+    std::span<const Wall> walls() const { return world_->scene.walls; }
     const kernels::KernelTable& kernel_table() const { return *kernels_; }
 
     /// Forces at the present positions. With `sums`, contact_sums() is valid afterwards. Calling it
@@ -54,22 +49,47 @@ class Simulation {
     void compute_forces(bool sums = false);
     /// Moves everything by one step [s] > 0; compute_forces() must have been called.
     void advance(double step);
+    /// compute_forces() and advance(step), with steer() called in between: it may read wall loads
+    /// and set wall velocities, nothing else.
+    template <class Steer>
+    void step(double step, const Steer& steer) {
+        if (!engine_->fuses()) {
+            compute_forces();
+            steer();
+            return advance(step);
+        }
+        engine_->compute_and_move(step);
+        moved();
+        steer();
+        move_walls(step);
+    }
 
-    double time() const { return time_; }           ///< [s]
-    std::int64_t steps() const { return steps_; }   ///< taken so far [-]
-    double last_step() const { return old_step_; }  ///< before the present time; 0 at first [s]
+    double time() const { return world_->time; }           ///< [s]
+    std::int64_t steps() const { return world_->steps; }   ///< taken so far [-]
+    double last_step() const { return world_->old_step; }  ///< before now; 0 at first [s]
 
-    /// Load of each wall at the present positions.
-    std::span<const kernels::WallLoad> wall_loads() const { return wall_loads_; }
-    const kernels::ContactSums& contact_sums() const { return contact_sums_; }
-    ContactList& contacts() { return contacts_; }
-    const ContactList& contacts() const { return contacts_; }
-    std::int64_t touching_contacts() const;  ///< [-]
+    /// Load of each wall at the last force evaluation.
+    std::span<const kernels::WallLoad> wall_loads() const { return world_->wall_loads; }
+    const kernels::ContactSums& contact_sums() const { return world_->contact_sums; }
+    /// Contacts that touched at the last force evaluation, sorted by (i, j), walls last.
+    std::vector<TouchingContact> touching() const { return engine_->touching(); }
+    std::int64_t touching_contacts() const { return engine_->touching_count(); }  ///< [-]
+    /// Restores the shear force on i [N] of a contact, j = -1 - wall for a wall; false if the two
+    /// are not near each other.
+    bool restore_shear(std::int32_t i, std::int32_t j, const Vec3& shear) {
+        return engine_->restore(i, j, shear);
+    }
+    /// The next force evaluation searches for neighbours anew; for tests, nothing needs it.
+    void rebuild_lists() { engine_->invalidate_lists(); }
+    std::int64_t list_builds() const { return engine_->list_builds(); }  ///< so far [-]
+    std::int64_t neighbour_searches() const { return engine_->searches(); }  ///< so far [-]
+    /// Candidates in the lists; those that the engine looks at twice count twice [-].
+    std::int64_t candidates() const { return engine_->candidate_count(); }
 
     /// Velocity and spin of sphere i at the present time (those stored are of mid-step).
     kernels::OnStep on_step(std::size_t i) const;
     /// Resultant force on sphere i, gravity included [N].
-    Vec3 resultant(std::size_t i) const { return force_[i]; }
+    Vec3 resultant(std::size_t i) const;
     /// Mean resultant over mean contact force; compute_forces(true) must have been called. 0 where
     /// nothing touches and nothing pulls, infinite where nothing touches but something pulls [-].
     double unbalanced_force_ratio() const;
@@ -85,17 +105,24 @@ class Simulation {
     void set_friction_angle(double angle);  ///< of all spheres [rad]
     void set_properties(std::span<const double> normal_stiffness,
                         std::span<const double> friction_angle);  ///< [Pa], [rad]
-    void add_velocity(std::size_t i, const Vec3& velocity);       ///< [m/s]
-    void scale_velocities(double factor);                         ///< spins too [-]
+    void scale_velocities(double factor);     ///< spins too [-]
+    /// Adds velocity(x) [m/s] to that of every sphere, x its centre [m].
+    template <class Field>
+    void add_velocities(const Field& velocity) {
+        ParticleStore& s = changing();
+        for (std::size_t i = 0; i < s.size(); ++i)
+            s.velocity.set(i, s.velocity[i] + velocity(i, s.position[i]));
+        engine_->push();
+    }
     void set_walls(std::vector<Wall> walls);  ///< replaces all; history with walls is lost
     /// Inertia of each sphere relative to its real mass (mass scaling), >= 1 [-].
     void set_inertia_scale(std::span<const double> scale);
-    std::span<const double> inverse_inertial_mass() const { return inverse_inertial_mass_; }
-    std::span<const double> inverse_inertia() const { return inverse_inertia_; }
+    std::span<const double> inverse_inertial_mass() const { return world_->inverse_inertial_mass; }
+    std::span<const double> inverse_inertia() const { return world_->inverse_inertia; }
 
     /// Throws SimulationError, naming sphere, step, time and place, if a position or velocity is
     /// not a number, an overlap exceeds half a radius, or a sphere moves more than half its radius
-    /// in a step.
+    /// in a step. Looks in full only where the engine has noticed something.
     void check_state() const;
 
     /// Hash of the whole mechanical state (positions, velocities, spins, touching contacts with
@@ -103,38 +130,16 @@ class Simulation {
     std::string state_hash() const;
 
   private:
-    void refresh_properties();
-    bool lists_outdated() const;
-    kernels::AffineMotion affine_motion() const;
-    double unpaired_wall_motion() const;
-    kernels::SphereColumns sphere_columns() const;
-    kernels::MotionColumns motion_columns() const;
-    kernels::MotionParameters motion_parameters(double new_step) const;
-    kernels::MotionFeatures motion_features() const;
-    void wall_forces(bool sums);
-    /// Motion that the contacts have not seen yet [s].
-    double elapsed() const { return forces_at_ == steps_ ? 0.0 : old_step_; }
+    void move_walls(double step);
+    ParticleStore& changing();
+    void changed();
+    void moved();
 
-    Scene scene_;
+    // Engines keep working copies; the store is brought up to date when somebody looks.
+    std::unique_ptr<World> world_;  // at a fixed address: the engine refers to it
     const kernels::KernelTable* kernels_;
-    SimulationOptions options_;
-    ContactList contacts_;
-
-    Column<double> friction_;  // tan(phi)
-    Column<double> inertia_scale_, inverse_inertial_mass_, inverse_inertia_;
-    Vec3Column force_, moment_;
-    bool has_friction_ = false, has_wall_friction_ = false, per_sphere_ = false;
-    double largest_radius_ = 0;
-
-    std::vector<kernels::PlaneWall> planes_;
-    std::vector<kernels::WallLoad> wall_loads_, last_wall_loads_;
-    kernels::ContactSums contact_sums_;
-    double friction_work_ = 0, damping_work_ = 0, external_work_ = 0;
-
-    double max_square_displacement_ = 0;
-    double time_ = 0, old_step_ = 0;
-    std::int64_t steps_ = 0;
-    std::int64_t forces_at_ = -1;  // steps taken when forces were last computed
+    std::unique_ptr<Engine> engine_;
+    mutable bool store_current_ = true, resultants_current_ = false;
 };
 
 }  // namespace grainfield::core

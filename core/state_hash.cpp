@@ -33,27 +33,17 @@ std::string Simulation::state_hash() const {
     hasher.add(spheres().position);
     hasher.add(spheres().velocity);
     hasher.add(spheres().spin);
-    for (std::size_t c = 0; c < contacts_.size(); ++c) {
-        if (!contacts_.touching(c)) continue;
-        const auto pairs = contacts_.pairs();
-        // Identify the bodies, not the place in the list: that depends on the skin.
-        std::int32_t ids[2];
-        if (c < pairs.size()) {
-            ids[0] = pairs[c].i;
-            ids[1] = pairs[c].j;
-        } else {
-            const auto& p = contacts_.wall_pairs()[c - pairs.size()];
-            ids[0] = p.sphere;
-            ids[1] = -1 - p.wall;
-        }
+    // The bodies identify a contact, not its place in a list: that depends on the skin.
+    for (const TouchingContact& c : touching()) {
+        const std::int32_t ids[2] = {c.i, c.j};
         hasher.add(ids, sizeof ids);
-        hasher.add(contacts_.shear(c));
+        hasher.add(c.shear);
     }
     for (const Wall& wall : walls()) {
         hasher.add(wall.point);
         hasher.add(wall.velocity);
     }
-    hasher.add(&time_, sizeof time_);
+    hasher.add(&world_->time, sizeof world_->time);
     return hasher.digest();
 }
 

@@ -29,18 +29,18 @@ double StepControl::frequency(const Simulation& simulation, int rounds) {
 double StepControl::next(Simulation& simulation) {
     const bool scaled = options_.mass_scaling > 1.0;
     if (options_.step && !scaled) return *options_.step;
-    if (next_estimate_ >= 0 && simulation.steps() < next_estimate_) return step_;
+    if (!due(simulation)) return step_;
     const bool first = next_estimate_ < 0;
     omega_ = frequency(simulation, first ? full_rounds : update_rounds);
     if (scaled && (first || omega_ > 1.05 * omega_target_)) scale_masses(simulation);
     const double governing = scaled ? std::max(omega_, omega_target_) : omega_;
     step_ = options_.step ? *options_.step : options_.safety * 2.0 / governing;
-    next_estimate_ = simulation.steps() + estimate_interval(simulation.spheres().size());
+    next_estimate_ = simulation.steps() + estimate_interval(simulation.size());
     return step_;
 }
 
 void StepControl::scale_masses(Simulation& simulation) {
-    const std::size_t n = simulation.spheres().size();
+    const std::size_t n = simulation.size();
     std::vector<double> scale(n, 1.0);
     simulation.set_inertia_scale(scale);
     omega_target_ = frequency(simulation, full_rounds) / options_.mass_scaling;

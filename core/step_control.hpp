@@ -21,6 +21,12 @@ class StepControl {
     /// spheres (mass scaling).
     double next(Simulation& simulation);
 
+    /// True if next() will look at the contacts: forces must be current then.
+    bool due(const Simulation& simulation) const {
+        const bool fixed = options_.step && options_.mass_scaling <= 1.0;
+        return !fixed && (next_estimate_ < 0 || simulation.steps() >= next_estimate_);
+    }
+
     /// The present limit 2/omega_max with the inertia in use [s]; 0 before the first estimate.
     double limit() const { return omega_ > 0 ? 2.0 / omega_ : 0.0; }
     /// Inertia of all spheres over their real mass, 1 without scaling [-].

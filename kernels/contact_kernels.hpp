@@ -3,7 +3,7 @@
 // columns. They allocate nothing and know no store; core/ owns the memory and the threads.
 //
 // A kernel table is the seam for instruction sets and precisions: core asks for one at run time
-// and calls through it. The scalar double table is the reference and the oracle of all others.
+// and calls through it.
 
 #include <cstddef>
 #include <cstdint>
@@ -93,6 +93,13 @@ struct WallLoad {
     Vec3 force = Vec3::Zero();  ///< on the wall [N]
     double stiffness = 0;       ///< sum of K_n of its contacts [N/m]
     std::int64_t contacts = 0;  ///< touching [-]
+
+    WallLoad& operator+=(const WallLoad& o) {
+        force += o.force;
+        stiffness += o.stiffness;
+        contacts += o.contacts;
+        return *this;
+    }
 };
 
 /// Forces of the candidate pairs begin <= c < end; columns are indexed by c.
@@ -104,14 +111,24 @@ using WallKernel = ContactSums (*)(const SphereColumns&, const PlaneWall* walls,
                                    const WallPair* pairs, ContactColumns, const ContactParameters&,
                                    WallLoad* loads, std::size_t begin, std::size_t end);
 
-struct KernelTable {
-    const char* isa;        ///< "scalar", ...
-    const char* precision;  ///< "double", ...
+struct ReferenceKernels {
     PairKernel (*pairs)(ContactFeatures);
     WallKernel (*walls)(ContactFeatures);
 };
 
-/// The reference: scalar, double precision.
+template <class T>
+struct VectorKernels;  // kernels/vector/
+
+/// One set of kernels; exactly one of the three is there.
+struct KernelTable {
+    const char* isa;        ///< "scalar", "avx2", "avx512"
+    const char* precision;  ///< "double", "mixed"
+    const ReferenceKernels* reference;
+    const VectorKernels<float>* mixed;
+    const VectorKernels<double>* full;
+};
+
+/// The reference: scalar, double precision, written to be read. The oracle of all others.
 const KernelTable& reference_kernels();
 
 }  // namespace grainfield::kernels

@@ -182,7 +182,8 @@ WallKernel choose_walls(ContactFeatures f) {
     return f.per_sphere ? pick_walls<false, true>(f.sums) : pick_walls<false, false>(f.sums);
 }
 
-constexpr KernelTable table{"scalar", "double", choose_pairs, choose_walls};
+constexpr ReferenceKernels kernels{choose_pairs, choose_walls};
+constexpr KernelTable table{"scalar", "double", &kernels, nullptr, nullptr};
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 
 #include "core/driver.hpp"
 #include "core/errors.hpp"
+#include "core/kernel_choice.hpp"
 #include "core/measures.hpp"
 #include "core/random.hpp"
 #include "core/servo.hpp"
@@ -38,10 +39,11 @@ constexpr std::size_t lid = 3;  // y high, in the order of box_walls()
 class BlockPacker {
   public:
     BlockPacker(const PackingOptions& options, const Material& material, core::Scene scene,
-                double lid_height, core::Monitor& monitor)
+                double lid_height, core::Monitor& monitor,
+                const kernels::KernelTable& kernels)
         : options_(options),
           material_(material),
-          simulation_(std::move(scene), kernels::reference_kernels()),
+          simulation_(std::move(scene), kernels),
           driver_(simulation_, core::TimeOptions{}, monitor),
           random_(options.seed, core::Stream::packing_shaking) {
         simulation_.set_wall_point(lid, Vec3(0, lid_height, 0));
@@ -86,13 +88,13 @@ class BlockPacker {
         const double phase_z = 2 * std::numbers::pi * random_.uniform(1, bouts_);
         ++bouts_;
         while (simulation_.time() < start + bout) {
+            const double angle =
+                2 * std::numbers::pi * shaking_frequency * (simulation_.time() - start);
+            const double a = shaking_acceleration * options_.gravity;
+            simulation_.set_gravity(gravity() + Vec3(a * std::sin(angle + phase_x),
+                                                     0.5 * a * std::sin(2 * angle),
+                                                     a * std::sin(angle + phase_z)));
             driver_.step(false, [&](double step) {
-                const double angle =
-                    2 * std::numbers::pi * shaking_frequency * (simulation_.time() - start);
-                const double a = shaking_acceleration * options_.gravity;
-                simulation_.set_gravity(gravity() + Vec3(a * std::sin(angle + phase_x),
-                                                         0.5 * a * std::sin(2 * angle),
-                                                         a * std::sin(angle + phase_z)));
                 servo.steer(simulation_, area, step);
                 const double down = -simulation_.walls()[lid].velocity.y();
                 const double room = std::max(0.0, (lid_height() - options_.block.y()) / step);
@@ -159,7 +161,7 @@ double bulk_unit_weight(const Material& material, double porosity, double gravit
 }
 
 Block pack_block(const PackingOptions& options, const Grading& grading, const Material& material,
-                 core::Monitor& monitor) {
+                 core::Monitor& monitor, const core::SolverOptions& solver) {
     Block block;
     block.grading = draw_diameters(grading, (1 - options.porosity) * options.block.prod(),
                                    options.seed, options.spheres);
@@ -183,7 +185,10 @@ Block pack_block(const PackingOptions& options, const Grading& grading, const Ma
     scene.walls =
         core::box_walls({Vec3::Zero(), {options.block.x(), height, options.block.z()}}, wall);
 
-    BlockPacker packer(options, material, std::move(scene), height, monitor);
+    // A few hundred spheres under their own weight: double costs little and resolves their forces.
+    const core::SolverOptions exact{.precision = core::Precision::double_, .isa = solver.isa};
+    BlockPacker packer(options, material, std::move(scene), height, monitor,
+                       core::choose_kernels(exact));
     packer.settle("settling one block");
     block.settled_height = packer.top_of_bed();
     core::Simulation& simulation = packer.simulation();

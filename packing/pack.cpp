@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "core/driver.hpp"
+#include "core/kernel_choice.hpp"
 #include "packing/flip.hpp"
 #include "packing/isotropic.hpp"
 #include "packing/settle.hpp"
@@ -36,14 +37,15 @@ core::Wall box_wall(const Material& material) {
 }  // namespace
 
 Packing pack(const PackingOptions& options, const Grading& grading, const Material& material,
-             const core::TimeOptions& time, core::Monitor& monitor) {
+             const core::TimeOptions& time, core::Monitor& monitor,
+             const core::SolverOptions& solver) {
     options.validate();
     grading.validate();
     Stopwatch watch;
     Packing packing;
     packing.options = options;
     packing.grading = grading;
-    packing.block = pack_block(options, grading, material, monitor);
+    packing.block = pack_block(options, grading, material, monitor, solver);
     const std::vector<std::size_t> order = order_in_space(packing.block.spheres, options.block);
     packing.block.spheres = reordered(packing.block.spheres, order);
     packing.block.hanging = reordered(packing.block.hanging, order);
@@ -58,7 +60,7 @@ Packing pack(const PackingOptions& options, const Grading& grading, const Materi
     scene.damping = material.damping;
     scene.walls = core::box_walls({Vec3::Zero(), size}, box_wall(material));
     scene.walls.erase(scene.walls.begin() + 3);  // no lid
-    core::Simulation simulation(std::move(scene), kernels::reference_kernels());
+    core::Simulation simulation(std::move(scene), core::choose_kernels(solver));
     core::Driver driver(simulation, time, monitor);
     monitor.begin("settling the sample under gravity");
     settle_under_gravity(driver, 2, options.gravity, size.y());

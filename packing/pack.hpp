@@ -29,6 +29,7 @@ struct Packing {
 /// Packs, flips and settles; with options.isotropic_stress also brings the sample to that stress
 /// without gravity. Throws InputError (unreachable porosity), SimulationError, Interrupted.
 Packing pack(const PackingOptions& options, const Grading& grading, const Material& material,
-             const core::TimeOptions& time, core::Monitor& monitor);
+             const core::TimeOptions& time, core::Monitor& monitor,
+             const core::SolverOptions& solver = {});
 
 }  // namespace grainfield::packing

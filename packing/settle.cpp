@@ -34,7 +34,7 @@ void settle_under_gravity(core::Driver& driver, std::size_t floor_wall, double g
     const double negligible = 1e-5 * total_mass * gravity * height;  // kinetic energy [J]
 
     simulation.set_gravity(Vec3(0, -gravity, 0));
-    double ratio = 1, floor_error = 1, energy = 0;
+    double ratio = 1, floor_error = 1;
     for (std::int64_t steps = 0;; ++steps) {
         const bool look = steps % look_every == 0;
         driver.step(look, [&](double) {
@@ -43,8 +43,9 @@ void settle_under_gravity(core::Driver& driver, std::size_t floor_wall, double g
             floor_error = core::wall_compression(simulation, floor_wall) / weight - 1;
         });
         if (!look) continue;
-        energy = kinetic_energy(simulation);
-        if (ratio < rest && std::abs(floor_error) < floor_tolerance && energy < negligible) break;
+        if (ratio < rest && std::abs(floor_error) < floor_tolerance &&
+            kinetic_energy(simulation) < negligible)
+            break;
         if (steps % 100 == 0)
             driver.monitor().progress(
                 -1, steps,

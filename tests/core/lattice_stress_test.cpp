@@ -93,7 +93,7 @@ Eigen::Matrix3d fcc_stress_change(const kernels::KernelTable& table, double lamb
     const auto stress = [&] {
         Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
         for (const Branch& b : force_branches(sim))
-            if (b.from.isZero(0.0)) sum += b.force * (b.to - b.from).transpose();
+            if (b.from.isZero(1e-12)) sum += b.force * (b.to - b.from).transpose();
         return Eigen::Matrix3d(0.5 * sum / (4 * std::sqrt(2.0) * R * R * R));
     };
     sim.compute_forces();

@@ -83,7 +83,7 @@ double speed_after(const kernels::KernelTable& table, double mu, double theta, d
                    double time, const Eigen::Matrix3d& turn) {
     Simulation sim(resting_sphere(mu, theta, Vec3::Zero(), turn), table);
     sim.compute_forces();
-    EXPECT_TRUE(sim.contacts().restore(0, -1, turn * Vec3(-shear, 0, 0)));
+    EXPECT_TRUE(sim.restore_shear(0, -1, turn * Vec3(-shear, 0, 0)));
     const double step = 0.1 / omega;
     const int n = static_cast<int>(time / step);
     run_steps(sim, step, n);

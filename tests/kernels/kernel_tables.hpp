@@ -8,14 +8,15 @@
 #include <vector>
 
 #include "kernels/contact_kernels.hpp"
+#include "kernels/vector/vector_tables.hpp"
 
 namespace grainfield::kernels {
 
 struct KernelCase {
     std::string name;
-    const KernelTable* table;
-    /// Relative round-off of one contact force or displacement [-]. Double: 2^-52, forces and
-    /// state alike.
+    const KernelTable* table;  ///< null where the machine cannot run it
+    /// Relative round-off of one contact force or displacement [-]: 2^-52 in double; 2^-23 where
+    /// forces and motion are in float.
     double epsilon;
 };
 
@@ -24,12 +25,36 @@ inline std::ostream& operator<<(std::ostream& out, const KernelCase& c) {
 }
 
 inline std::vector<KernelCase> kernel_cases() {
-    return {{"scalar_double", &reference_kernels(), 0x1p-52}};
+    std::vector<KernelCase> cases{{"reference", &reference_kernels(), 0x1p-52}};
+    for (const InstructionSet isa : instruction_sets) {
+        const bool here = runs_here(isa);
+        const std::string set = kernels::name(isa);
+        cases.push_back({set + "_double", here ? double_table(isa) : nullptr, 0x1p-52});
+        cases.push_back({set + "_mixed", here ? mixed_table(isa) : nullptr, 0x1p-23});
+    }
+    return cases;
 }
 
 /// Base of all tests that run on every table.
 class KernelTest : public testing::TestWithParam<KernelCase> {
   protected:
+    void SetUp() override {
+        if (GetParam().table == nullptr)
+            GTEST_SKIP() << "not run: this machine lacks the instruction set of "
+                         << GetParam().name;
+    }
+    bool is_reference() const { return GetParam().table->reference != nullptr; }
+    bool is_mixed() const { return GetParam().table->mixed != nullptr; }
+    /// A velocity or spin as the engine keeps it.
+    Vec3 as_kept(const Vec3& v) const {
+        if (!is_mixed()) return v;
+        Vec3 kept;
+        for (int a = 0; a < 3; ++a) {
+            const volatile auto rounded = static_cast<float>(v[a]);  // really: in single precision
+            kept[a] = static_cast<double>(rounded);
+        }
+        return kept;
+    }
     const KernelTable& table() const { return *GetParam().table; }
     /// Tolerance of a result that round-off reaches `operations` times over [-].
     double roundoff(double operations) const { return operations * GetParam().epsilon; }

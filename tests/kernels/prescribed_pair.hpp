@@ -2,62 +2,159 @@
 // A pair of spheres moved as told through the pair kernel: what the contact makes of it.
 
 #include <array>
+#include <memory>
+#include <vector>
 
+#include "core/aligned.hpp"
+#include "kernels/vector/vector_kernels.hpp"
 #include "tests/kernels/kernel_tables.hpp"
 
 namespace grainfield::kernels {
+
+/// What the pair kernels get and give, in double.
+struct PairState {
+    std::array<double, 2> radius;
+    double friction, stiffness;
+    std::array<Vec3, 2> position, velocity, spin;
+    double step = 0;
+    Vec3 shear = Vec3::Zero(), force = Vec3::Zero(), moment_per_radius = Vec3::Zero();
+    bool touching = false;
+};
+
+inline constexpr double pair_stiffness_ratio = 0.5;  // k_s/k_n [-]
+
+class PairRunner {
+  public:
+    virtual ~PairRunner() = default;
+    virtual void evaluate(PairState& state) = 0;
+};
+
+class ReferencePair : public PairRunner {
+  public:
+    explicit ReferencePair(const ReferenceKernels& kernels)
+        : kernel_(kernels.pairs({true, false, true})) {}
+
+    void evaluate(PairState& s) override {
+        const auto column = [](const std::array<Vec3, 2>& v, int axis) {
+            return std::array<double, 2>{v[0][axis], v[1][axis]};
+        };
+        const std::array<std::array<double, 2>, 9> c{
+            column(s.position, 0), column(s.position, 1), column(s.position, 2),
+            column(s.velocity, 0), column(s.velocity, 1), column(s.velocity, 2),
+            column(s.spin, 0),     column(s.spin, 1),     column(s.spin, 2)};
+        const std::array<double, 2> friction{s.friction, s.friction},
+            stiffness{s.stiffness, s.stiffness};
+        const SphereColumns columns{c[0].data(),     c[1].data(),      c[2].data(),
+                                    c[3].data(),     c[4].data(),      c[5].data(),
+                                    c[6].data(),     c[7].data(),      c[8].data(),
+                                    s.radius.data(), stiffness.data(), friction.data()};
+        const Pair pair{0, 1};
+        std::uint8_t touching = s.touching;
+        kernel_(columns, &pair, {&s.shear, &touching, &s.force, &s.moment_per_radius},
+                {pair_stiffness_ratio, s.stiffness, s.friction, s.step}, 0, 1);
+        s.touching = touching != 0;
+    }
+
+  private:
+    PairKernel kernel_;
+};
+
+/// The first candidate of a list that is otherwise padding.
+template <class T>
+class VectorPair : public PairRunner {
+  public:
+    VectorPair(const VectorKernels<T>& kernels, const PairState& s)
+        : kernels_(kernels),
+          start_(s.position),
+          records_(3),
+          loads_(3),
+          a_(most_lanes, 2),
+          b_(most_lanes, 2),
+          separation_(most_lanes, {{4, 0, 0}, -2}),
+          history_(most_lanes),
+          touching_(1),
+          scratch_(2 * most_lanes) {
+        const Vec3 branch = start_[1] - start_[0];
+        separation_[0].gap = static_cast<T>(s.radius[0] + s.radius[1] - branch.norm());
+        records_[2].radius = records_[2].stiffness = 1;
+        a_[0] = 0;
+        b_[0] = 1;
+        for (int k = 0; k < 3; ++k) separation_[0].x[k] = static_cast<T>(branch[k]);
+    }
+
+    void evaluate(PairState& s) override {
+        for (std::size_t i = 0; i < 2; ++i)
+            for (int k = 0; k < 3; ++k) {
+                records_[i].radius = static_cast<T>(s.radius[i]);
+                records_[i].u[k] = static_cast<T>(s.position[i][k] - start_[i][k]);
+                records_[i].v[k] = static_cast<T>(s.velocity[i][k]);
+                records_[i].w[k] = static_cast<T>(s.spin[i][k]);
+            }
+        for (int k = 0; k < 3; ++k) history_[0].shear[k] = static_cast<T>(s.shear[k]);
+        loads_.assign(3, {});
+        const PairParameters<T> p{static_cast<T>(pair_stiffness_ratio),
+                                  static_cast<T>(s.stiffness), static_cast<T>(s.friction),
+                                  static_cast<T>(s.step), 2};
+        kernels_.pairs[variant(ContactFeatures{true, false, true})](
+            records_.data(),
+            {most_lanes, most_lanes, most_lanes - 1, a_.data(), b_.data(), separation_.data(),
+             history_.data(), touching_.data(), scratch_.data()},
+            loads_.data(), p);
+        const auto vec = [](const T(&v)[3]) { return Vec3(v[0], v[1], v[2]); };
+        s.shear = vec(history_[0].shear);
+        s.force = vec(loads_[0].force);
+        s.moment_per_radius = vec(loads_[0].moment) / s.radius[0];
+        s.touching = (touching_[0] & 1u) != 0;
+    }
+
+  private:
+    const VectorKernels<T>& kernels_;
+    std::array<Vec3, 2> start_;
+    core::Aligned<SphereRecord<T>> records_;
+    core::Aligned<SphereLoad<T>> loads_;
+    core::Aligned<std::int32_t> a_, b_;
+    core::Aligned<BuiltSeparation<T>> separation_;
+    core::Aligned<ContactHistory<T>> history_;
+    core::Aligned<std::uint16_t> touching_;
+    core::Aligned<std::int32_t> scratch_;
+};
 
 class PrescribedPair {
   public:
     static constexpr double stiffness = 1e6;  // k_n of both [Pa]
 
     PrescribedPair(const KernelTable& table, double radius_i, double radius_j, const Vec3& xi,
-                   const Vec3& xj, double friction)
-        : kernel_(table.pairs({true, false, true})),
-          radius_{radius_i, radius_j},
-          friction_{friction, friction},
-          position_{xi, xj} {
-        evaluate({Vec3::Zero(), Vec3::Zero()}, {Vec3::Zero(), Vec3::Zero()}, 0.0);
+                   const Vec3& xj, double friction) {
+        state_.radius = {radius_i, radius_j};
+        state_.friction = friction;
+        state_.stiffness = stiffness;
+        state_.position = {xi, xj};
+        state_.velocity = state_.spin = {Vec3::Zero(), Vec3::Zero()};
+        if (table.reference) runner_ = std::make_unique<ReferencePair>(*table.reference);
+        if (table.mixed) runner_ = std::make_unique<VectorPair<float>>(*table.mixed, state_);
+        if (table.full) runner_ = std::make_unique<VectorPair<double>>(*table.full, state_);
+        runner_->evaluate(state_);
     }
 
     /// Moves both to new places in one step, with the spins of that step.
     void move(const Vec3& xi, const Vec3& xj, const Vec3& spin_i, const Vec3& spin_j,
               double step = 1.0) {
-        const std::array<Vec3, 2> velocity{(xi - position_[0]) / step, (xj - position_[1]) / step};
-        position_ = {xi, xj};
-        evaluate(velocity, {spin_i, spin_j}, step);
+        state_.velocity = {(xi - state_.position[0]) / step, (xj - state_.position[1]) / step};
+        state_.position = {xi, xj};
+        state_.spin = {spin_i, spin_j};
+        state_.step = step;
+        runner_->evaluate(state_);
     }
 
-    void set_shear(const Vec3& shear) { shear_ = shear; }
-    const Vec3& shear() const { return shear_; }
-    const Vec3& force() const { return force_; }
-    const Vec3& moment_per_radius() const { return moment_; }
-    bool touching() const { return touching_ != 0; }
+    void set_shear(const Vec3& shear) { state_.shear = shear; }
+    const Vec3& shear() const { return state_.shear; }
+    const Vec3& force() const { return state_.force; }
+    const Vec3& moment_per_radius() const { return state_.moment_per_radius; }
+    bool touching() const { return state_.touching; }
 
   private:
-    void evaluate(const std::array<Vec3, 2>& velocity, const std::array<Vec3, 2>& spin,
-                  double step) {
-        const auto column = [](const std::array<Vec3, 2>& v, int axis) {
-            return std::array<double, 2>{v[0][axis], v[1][axis]};
-        };
-        const std::array<std::array<double, 2>, 9> c{
-            column(position_, 0), column(position_, 1), column(position_, 2),
-            column(velocity, 0),  column(velocity, 1),  column(velocity, 2),
-            column(spin, 0),      column(spin, 1),      column(spin, 2)};
-        const SphereColumns columns{c[0].data(),    c[1].data(),       c[2].data(),
-                                    c[3].data(),    c[4].data(),       c[5].data(),
-                                    c[6].data(),    c[7].data(),       c[8].data(),
-                                    radius_.data(), stiffness_.data(), friction_.data()};
-        const Pair pair{0, 1};
-        kernel_(columns, &pair, {&shear_, &touching_, &force_, &moment_},
-                {0.5, stiffness, friction_[0], step}, 0, 1);
-    }
-
-    PairKernel kernel_;
-    std::array<double, 2> radius_, friction_, stiffness_{stiffness, stiffness};
-    std::array<Vec3, 2> position_;
-    Vec3 shear_ = Vec3::Zero(), force_ = Vec3::Zero(), moment_ = Vec3::Zero();
-    std::uint8_t touching_ = 0;
+    PairState state_;
+    std::unique_ptr<PairRunner> runner_;
 };
 
 }  // namespace grainfield::kernels

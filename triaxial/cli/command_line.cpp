@@ -57,6 +57,8 @@ CLI::App& CommandLine::add(CLI::App& app, const std::string& name, const std::st
         .add_option("--set", settings_,
                     "key.path=value: a config key to override, again for each key")
         ->allow_extra_args(false);
+    command.add_option("--isa", isa_,
+                       "Instruction set: auto, scalar, avx2 or avx512; short for solver.isa");
     command.add_flag("--quiet", quiet_, "No progress on stderr, errors only");
     commands_[name] = {std::move(run), reaction};
     return command;
@@ -83,6 +85,7 @@ void CommandLine::run(CLI::App& app, int argc, const char* const* argv) {
     // Results wait in the buffer until the last line of progress is off the terminal.
     std::setvbuf(stdout, nullptr, _IOFBF, std::size_t{1} << 16);
     TerminalMonitor monitor(quiet_);
+    if (!isa_.empty()) settings_.push_back("solver.isa=" + isa_);
     Session session{settings_, monitor, threads_};
     command.run(session);
     monitor.finish();

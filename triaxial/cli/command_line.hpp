@@ -50,6 +50,7 @@ class CommandLine {
     std::map<std::string, Command, std::less<>> commands_;
     int threads_ = 0;  // 0: as OpenMP gives
     std::vector<std::string> settings_;
+    std::string isa_;
     bool quiet_ = false;
 };
 

@@ -55,7 +55,7 @@ void run_pack(const Arguments& arguments, Session& session) {
                        std::filesystem::path(arguments.out).replace_extension(".failed.h5"));
     const packing::Packing packed = keeper.run([&] {
         return packing::pack(config.packing, config.grading, packing_material(config), config.time,
-                             keeper);
+                             keeper, config.solver);
     });
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     write_packing(arguments.out, packed, seconds.count());

@@ -115,17 +115,10 @@ void write_state(const std::filesystem::path& path, const core::Simulation& simu
                        {"state_hash", simulation.state_hash()}};
     // Touching contacts: i, j (or -1 - wall) and the shear force on i.
     core::ExtraArray contacts;
-    const auto& list = simulation.contacts();
-    const auto pairs = list.pairs();
-    for (std::size_t c = 0; c < list.size(); ++c) {
-        if (!list.touching(c)) continue;
-        const bool pair = c < pairs.size();
-        const double i = pair ? pairs[c].i : list.wall_pairs()[c - pairs.size()].sphere;
-        const double j = pair ? pairs[c].j : -1 - list.wall_pairs()[c - pairs.size()].wall;
-        const Vec3& shear = list.shear(c);
-        for (double value : {i, j, shear.x(), shear.y(), shear.z()})
+    for (const core::TouchingContact& c : simulation.touching())
+        for (double value :
+             {double(c.i), double(c.j), c.shear.x(), c.shear.y(), c.shear.z()})
             contacts.values.push_back(value);
-    }
     contacts.shape = {contacts.values.size() / 5, 5};
     if (!contacts.values.empty()) file.extra["contacts"] = std::move(contacts);
     core::write_spheres(path, file);

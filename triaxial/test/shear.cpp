@@ -44,12 +44,10 @@ void ShearStage::start_affine() {
     const Vec3 low(simulation.walls()[0].point.x(), simulation.walls()[2].point.y(),
                    simulation.walls()[4].point.z());
     const Vec3 middle = low + 0.5 * start_size_;
-    for (std::size_t i = 0; i < simulation.spheres().size(); ++i) {
-        const Vec3 x = simulation.spheres().position[i];
-        simulation.add_velocity(
-            i, Vec3(lateral * (x.x() - middle.x()), -options_.strain_rate * (x.y() - low.y()),
-                    lateral * (x.z() - middle.z())));
-    }
+    simulation.add_velocities([&](std::size_t, const Vec3& x) {
+        return Vec3(lateral * (x.x() - middle.x()), -options_.strain_rate * (x.y() - low.y()),
+                    lateral * (x.z() - middle.z()));
+    });
     for (core::WallServo& servo : servos_)
         servo.set_speed(0.5 * lateral * start_size_[static_cast<int>(servo.wall()) / 2]);
 }

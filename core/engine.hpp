@@ -1,0 +1,74 @@
+#pragma once
+// What computes the steps of a simulation. The reference engine is written to be read and is the
+// oracle; the vector engine is written to be fast.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/world.hpp"
+
+namespace grainfield::core {
+
+/// A contact that touched at the last force evaluation, as others see it.
+struct TouchingContact {
+    std::int32_t i, j;  ///< spheres, i < j; j = -1 - wall for a wall [-]
+    Vec3 shear;         ///< shear force on i [N]
+    Vec3 force;         ///< whole force on i [N]
+};
+
+class Engine {
+  public:
+    explicit Engine(World& world) : world_(world) {}
+    virtual ~Engine() = default;
+    Engine(const Engine&) = delete;
+    Engine& operator=(const Engine&) = delete;
+
+    /// Forces at the present positions: wall loads; with `sums`, also world.contact_sums.
+    /// Rebuilds the lists if the motion demands it.
+    virtual void compute_forces(bool sums) = 0;
+    /// Moves the spheres by a step [s]; compute_forces() must have been called.
+    virtual void move(double step) = 0;
+    /// True if compute_and_move() is less work than the two calls.
+    virtual bool fuses() const { return false; }
+    /// Both at once, for a step [s] whose wall velocities are not known yet.
+    virtual void compute_and_move(double step) {
+        compute_forces(world_.options.ledger);
+        move(step);
+    }
+
+    /// Brings the store's positions, velocities and spins up to date.
+    virtual void pull() = 0;
+    /// Brings world.force and world.moment up to date; forces must be current.
+    virtual void pull_resultants() = 0;
+    /// Takes over velocities, spins and properties changed in the store.
+    virtual void push() = 0;
+    /// Takes over walls that were replaced: history with the old ones is lost.
+    virtual void forget_walls() = 0;
+    /// The next evaluation builds new lists.
+    virtual void invalidate_lists() = 0;
+
+    /// All touching contacts, sorted by (i, j) with the walls last, in their order.
+    virtual std::vector<TouchingContact> touching() const = 0;
+    virtual std::int64_t touching_count() const = 0;
+    virtual std::int64_t candidate_count() const = 0;  ///< in the lists, walls too [-]
+    /// Sum over spheres of |resultant force|; forces must be current [N].
+    virtual double resultant_sum() = 0;
+    /// Sets the shear force of a touching candidate [N] (used when a saved state is loaded). False
+    /// if the two are no candidates.
+    virtual bool restore(std::int32_t i, std::int32_t j, const Vec3& shear) = 0;
+    /// True if the steps since cleared() give reason to look at the whole state.
+    virtual bool suspicious() const = 0;
+    virtual void cleared() {}
+    virtual std::int64_t list_builds() const = 0;
+    /// Neighbour searches so far: some builds choose among known neighbours [-].
+    virtual std::int64_t searches() const { return list_builds(); }
+
+  protected:
+    World& world_;
+};
+
+/// The engine for a kernel table.
+std::unique_ptr<Engine> make_engine(World& world, const kernels::KernelTable& kernels);
+
+}  // namespace grainfield::core

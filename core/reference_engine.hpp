@@ -1,0 +1,55 @@
+#pragma once
+// The reference engine: scalar, double precision, one pass after the other, written to be read.
+// Its results are the same, bit for bit, for any number of threads, any skin and any age of the
+// lists.
+
+#include "core/contact_list.hpp"
+#include "core/engine.hpp"
+
+namespace grainfield::core {
+
+class ReferenceEngine : public Engine {
+  public:
+    ReferenceEngine(World& world, const kernels::ReferenceKernels& kernels)
+        : Engine(world), kernels_(kernels) {
+        push();
+    }
+
+    void compute_forces(bool sums) override;
+    void move(double step) override;
+    void pull() override {}
+    void pull_resultants() override {}
+    void push() override;
+    void forget_walls() override { contacts_.forget_walls(); }
+    void invalidate_lists() override;
+    std::vector<TouchingContact> touching() const override;
+    std::int64_t touching_count() const override;
+    std::int64_t candidate_count() const override {
+        return static_cast<std::int64_t>(contacts_.size());
+    }
+    double resultant_sum() override;
+    bool restore(std::int32_t i, std::int32_t j, const Vec3& shear) override {
+        return contacts_.restore(i, j, shear);
+    }
+    bool suspicious() const override { return true; }
+    std::int64_t list_builds() const override { return contacts_.builds(); }
+
+  private:
+    void wall_forces(bool sums);
+    bool lists_outdated() const;
+    double unpaired_wall_motion() const;
+    kernels::AffineMotion affine_motion(double ahead) const;  // in so many seconds [s]
+    kernels::SphereColumns sphere_columns() const;
+    kernels::ContactParameters contact_parameters() const;
+
+    const kernels::ReferenceKernels& kernels_;
+    ContactList contacts_;
+    double max_square_displacement_ = 0;  // since the lists were built, beyond affine [m2]
+};
+
+/// Columns of a world's spheres for the kernels that move them and measure their motion.
+kernels::MotionColumns motion_columns(World& world);
+/// Parameters of a step of length new_step [s]; 0 to measure.
+kernels::MotionParameters motion_parameters(const World& world, double new_step);
+
+}  // namespace grainfield::core

@@ -1,0 +1,81 @@
+#pragma once
+// A domain: a compact part of the sample that one thread works on at a time, with the working
+// copies of its spheres, copies of the neighbours outside ("ghosts"), and its own lists. Contacts
+// across a border are computed in both domains, from the same numbers to the same bits; each
+// domain adds up the forces on its own spheres alone. So nothing depends on the threads.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/vector/candidate_list.hpp"
+#include "core/world.hpp"
+#include "kernels/vector/vector_kernels.hpp"
+
+namespace grainfield::core {
+
+/// Candidates of one wall.
+template <class T>
+struct WallList {
+    std::int32_t wall = 0;
+    CandidateList<T> list;
+};
+
+template <class T>
+struct Domain {
+    std::size_t first = 0;  ///< slot of the first of its spheres
+    std::size_t own = 0;    ///< how many it has
+
+    // Records: own spheres, padding, ghosts, and one that is idle.
+    Aligned<kernels::SphereRecord<T>> records;
+    Aligned<kernels::SphereLoad<T>> loads;                     ///< as records
+    Aligned<kernels::BuiltPlace<T>> places;                    ///< own spheres and padding
+    std::vector<std::int32_t> ghost_slots;                     ///< ascending
+    std::vector<const kernels::SphereRecord<T>*> ghost_homes;  ///< where ghosts are copied from
+
+    /// Neighbours as records: all that can become candidates before the next search.
+    std::vector<std::array<std::int32_t, 2>> neighbours;
+    CandidateList<T> pairs;
+    std::vector<WallList<T>> walls;
+
+    // Results of the last pass.
+    kernels::PassResult pass;
+    std::vector<kernels::WallLoad> wall_loads;  ///< one a wall of the scene
+    kernels::MoveResult motion;
+
+    std::size_t ghost_begin() const { return kernels::padded(own); }
+    std::int32_t idle() const { return static_cast<std::int32_t>(records.size() - 1); }
+    bool owns(std::int32_t slot) const {
+        const auto s = static_cast<std::size_t>(slot);
+        return s >= first && s < first + own;
+    }
+    /// Slot of a record; ghosts too.
+    std::int32_t slot(std::int32_t record) const {
+        const auto r = static_cast<std::size_t>(record);
+        return r < own ? static_cast<std::int32_t>(first + r) : ghost_slots[r - ghost_begin()];
+    }
+    /// Record of a slot that is own or a ghost.
+    std::int32_t record(std::int32_t slot) const;
+};
+
+/// What the lists of a domain are built from; all indexed by slot.
+struct BuiltState {
+    Vec3Column position;      ///< centres [m]
+    Column<double> radius;    ///< [m]
+    Column<double> reserve;   ///< what a sphere may move beyond the box's strain [m]
+    double wall_reserve = 0;  ///< what a wall may deviate from the box's strain [m]
+};
+
+/// Gives the domain new neighbours: `pairs` as slots, ascending by (i, j), i < j, at least one of
+/// the two its own. Contacts that touch keep their history. Ghosts' records are left to copy, and
+/// build_lists() has to follow.
+template <class T>
+void set_neighbours(Domain<T>& domain, std::span<const kernels::Pair> pairs);
+
+/// Chooses the candidates among the neighbours; contacts that touch keep their history. `found` is
+/// memory to work in.
+template <class T>
+void build_lists(Domain<T>& domain, const BuiltState& state, std::span<const Wall> walls,
+                 std::vector<Candidate<T>>& found);
+
+}  // namespace grainfield::core

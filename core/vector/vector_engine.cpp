@@ -1,0 +1,286 @@
+#include "core/vector/vector_engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grainfield::core {
+namespace {
+
+/// Spheres of a domain: with their contacts they fill about half of a 1 MB cache.
+constexpr std::size_t domain_size = 2400;
+
+template <class T>
+void assign3(T (&to)[3], const Vec3& from) {
+    for (int a = 0; a < 3; ++a) to[a] = static_cast<T>(from[a]);
+}
+template <class T>
+Vec3 vec3(const T (&v)[3]) {
+    return {double{v[0]}, double{v[1]}, double{v[2]}};
+}
+
+}  // namespace
+
+template <class T>
+VectorEngine<T>::VectorEngine(World& world, const kernels::VectorKernels<T>& kernels)
+    : Engine(world), kernels_(kernels) {
+    const ParticleStore& s = world.spheres();
+    const std::size_t n = s.size();
+    order_ = order_in_space(s.position, domain_size);
+    slot_of_.resize(n);
+    built_.position.resize(n);
+    built_.radius.resize(n);
+    built_.reserve.resize(n);
+    for (std::size_t slot = 0; slot < n; ++slot) {
+        const auto i = static_cast<std::size_t>(order_.sphere[slot]);
+        slot_of_[i] = static_cast<std::int32_t>(slot);
+        built_.position.set(slot, s.position[i]);
+        built_.radius[slot] = s.radius[i];
+    }
+    if (n > 0) smallest_radius_ = *std::min_element(s.radius.begin(), s.radius.end());
+    domains_.resize(order_.first.size() - 1);
+    for (std::size_t d = 0; d < domains_.size(); ++d) {
+        Domain<T>& domain = domains_[d];
+        domain.first = order_.first[d];
+        domain.own = order_.first[d + 1] - order_.first[d];
+        domain.records.resize(domain.ghost_begin() + 1);
+        domain.places.resize(domain.ghost_begin());
+    }
+    push();
+}
+
+template <class T>
+void VectorEngine<T>::push() {
+    const ParticleStore& s = world_.spheres();
+    for (Domain<T>& domain : domains_)
+        for (std::size_t k = 0; k < domain.own; ++k) {
+            const auto i = static_cast<std::size_t>(order_.sphere[domain.first + k]);
+            kernels::SphereRecord<T>& r = domain.records[k];
+            r.radius = static_cast<T>(s.radius[i]);
+            assign3(r.v, s.velocity[i]);
+            r.friction = static_cast<T>(world_.friction[i]);
+            assign3(r.w, s.spin[i]);
+            r.stiffness = static_cast<T>(s.normal_stiffness[i]);
+            r.inverse_mass = static_cast<T>(world_.inverse_inertial_mass[i]);
+            r.inverse_inertia = static_cast<T>(world_.inverse_inertia[i]);
+            r.mass = static_cast<T>(s.mass[i]);
+        }
+    if (!world_.has_friction)
+        for (Domain<T>& domain : domains_) {
+            std::fill(domain.pairs.history.begin(), domain.pairs.history.end(),
+                      kernels::ContactHistory<T>{});
+            for (WallList<T>& wall : domain.walls)
+                std::fill(wall.list.history.begin(), wall.list.history.end(),
+                          kernels::ContactHistory<T>{});
+        }
+    suspicious_ = true;  // what was pushed has not been looked at
+}
+
+template <class T>
+void VectorEngine<T>::pull() {
+    ParticleStore& s = world_.scene.spheres;
+#pragma omp parallel for schedule(static) if (domains_.size() > 1)
+    for (std::size_t d = 0; d < domains_.size(); ++d) {
+        const Domain<T>& domain = domains_[d];
+        for (std::size_t k = 0; k < domain.own; ++k) {
+            const std::size_t slot = domain.first + k;
+            const auto i = static_cast<std::size_t>(order_.sphere[slot]);
+            const kernels::SphereRecord<T>& r = domain.records[k];
+            s.position.set(i, built_.position[slot] + vec3(r.u));
+            s.velocity.set(i, vec3(r.v));
+            s.spin.set(i, vec3(r.w));
+        }
+    }
+}
+
+template <class T>
+void VectorEngine<T>::pull_resultants() {
+    world_.force.resize(world_.size());
+    world_.moment.resize(world_.size());
+    for (const Domain<T>& domain : domains_)
+        for (std::size_t k = 0; k < domain.own; ++k) {
+            const auto i = static_cast<std::size_t>(order_.sphere[domain.first + k]);
+            world_.force.set(i, vec3(domain.loads[k].force) +
+                                    world_.spheres().mass[i] * world_.scene.gravity);
+            world_.moment.set(i, vec3(domain.loads[k].moment));
+        }
+}
+
+template <class T>
+double VectorEngine<T>::resultant_sum() {
+    std::vector<double> partial(domains_.size());
+    const Vec3 gravity = world_.scene.gravity;
+#pragma omp parallel for schedule(static) if (domains_.size() > 1)
+    for (std::size_t d = 0; d < domains_.size(); ++d) {
+        const Domain<T>& domain = domains_[d];
+        for (std::size_t k = 0; k < domain.own; ++k)
+            partial[d] += (vec3(domain.loads[k].force) + double{domain.records[k].mass} * gravity)
+                              .norm();
+    }
+    double sum = 0;
+    for (double p : partial) sum += p;
+    return sum;
+}
+
+// --- the step ------------------------------------------------------------------------------------
+
+template <class T>
+void VectorEngine<T>::compute_forces(bool sums) {
+    if (stale_ || !(used_reserves() < 1)) rebuild();
+    run({.forces = true, .sums = sums, .motion = false, .step = 0});
+}
+
+template <class T>
+void VectorEngine<T>::move(double step) {
+    run({.forces = false, .sums = false, .motion = true, .step = step});
+}
+
+template <class T>
+void VectorEngine<T>::compute_and_move(double step) {
+    if (stale_ || !(used_reserves() < 1)) rebuild();
+    run({.forces = true, .sums = false, .motion = true, .step = step});
+}
+
+/// Reads what the next domain needs out of order, so that it is in this core's cache by then;
+/// columns read in order come by themselves. Loads, because prefetches are dropped where a page's
+/// address is not at hand.
+template <class T>
+void touch(const Domain<T>& domain) {
+    const auto read = [](const auto& column) {
+        const auto* begin = reinterpret_cast<const char*>(column.data());
+        const std::size_t bytes = column.size() * sizeof(column[0]);
+        for (std::size_t at = 0; at < bytes; at += 64)
+            static_cast<void>(*static_cast<const volatile char*>(begin + at));
+    };
+    read(domain.records);
+    read(domain.pairs.history);
+}
+
+template <class T>
+void VectorEngine<T>::run(const Pass& pass) {
+    // Once a stretch of candidates is in play it stays so until the next build: contacts in it
+    // carry history.
+    most_used_ = std::max(most_used_, used_reserves());
+    if (pass.motion) affine_ = affine_motion(pass.step);
+    const kernels::MoveParameters<T> motion = move_parameters(pass.step);
+    make_scratch();
+    const auto move = kernels_.move[kernels::variant(world_.motion_features())];
+#pragma omp parallel if (domains_.size() > 1)
+    {
+        if (pass.forces) {
+#pragma omp for schedule(static)
+            for (std::size_t d = 0; d < domains_.size(); ++d) copy_ghosts(domains_[d]);
+        }
+        Scratch<T>& scratch = scratch_[static_cast<std::size_t>(omp_get_thread_num())];
+#pragma omp for schedule(dynamic, 1)
+        for (std::size_t d = 0; d < domains_.size(); ++d) {
+            Domain<T>& domain = domains_[d];
+            touch(domain);
+            // Where nobody looks at the loads they live in this core's cache only.
+            Aligned<kernels::SphereLoad<T>>& loads =
+                pass.forces && pass.motion ? scratch.loads : domain.loads;
+            if (pass.forces) domain_forces(domain, pass.sums, loads, scratch);
+            if (pass.motion)
+                domain.motion = move(domain.records.data(), loads.data(), domain.places.data(),
+                                     motion, domain.ghost_begin());
+        }
+    }
+    collect(pass);
+}
+
+template <class T>
+void VectorEngine<T>::copy_ghosts(Domain<T>& domain) {
+    kernels::SphereRecord<T>* ghost = domain.records.data() + domain.ghost_begin();
+    for (const kernels::SphereRecord<T>* home : domain.ghost_homes) *ghost++ = *home;
+}
+
+template <class T>
+void VectorEngine<T>::domain_forces(Domain<T>& domain, bool sums,
+                                    Aligned<kernels::SphereLoad<T>>& loads, Scratch<T>& scratch) {
+    loads.assign(domain.records.size(), {});
+    kernels::PairParameters<T> parameters = pair_parameters();
+    parameters.counted = static_cast<std::int32_t>(domain.own);
+    const std::size_t pairs =
+        kernels::variant(kernels::ContactFeatures{world_.has_friction, world_.per_sphere, sums});
+    domain.pass = kernels_.pairs[pairs](domain.records.data(), domain.pairs.view(most_used_, scratch.touching),
+                                        loads.data(), parameters);
+    domain.wall_loads.assign(world_.planes.size(), {});
+    const std::size_t variant = kernels::variant(
+        kernels::ContactFeatures{world_.has_wall_friction, world_.per_sphere, sums});
+    for (WallList<T>& list : domain.walls) {
+        const auto w = static_cast<std::size_t>(list.wall);
+        const kernels::PassResult result = kernels_.wall[variant](
+            domain.records.data(), wall_plane(w), list.list.view(most_used_, scratch.touching), loads.data(),
+            parameters, domain.wall_loads[w]);
+        domain.pass.sums += result.sums;
+        domain.pass.too_deep |= result.too_deep;
+    }
+}
+
+template <class T>
+void VectorEngine<T>::collect(const Pass& pass) {
+    if (pass.forces) {
+        world_.begin_wall_loads();
+        for (const Domain<T>& domain : domains_) {
+            world_.contact_sums += domain.pass.sums;
+            suspicious_ |= domain.pass.too_deep;
+            for (std::size_t w = 0; w < world_.planes.size(); ++w)
+                world_.wall_loads[w] += domain.wall_loads[w];
+        }
+        world_.end_evaluation();
+    }
+    if (!pass.motion) return;
+    double used2 = 0;
+    for (const Domain<T>& domain : domains_) {
+        used2 = std::max(used2, domain.motion.used_reserve2);
+        suspicious_ |= domain.motion.too_far;
+        stale_ |= domain.motion.too_far;  // the next list build names what is not a number
+        world_.damping_work += domain.motion.damping_work;
+    }
+    used_reserve_ = std::sqrt(used2);
+}
+
+template <class T>
+kernels::PairParameters<T> VectorEngine<T>::pair_parameters() const {
+    return {static_cast<T>(world_.scene.stiffness_ratio),
+            static_cast<T>(world_.uniform_stiffness()), static_cast<T>(world_.uniform_friction()),
+            static_cast<T>(world_.elapsed()), 0};
+}
+
+template <class T>
+kernels::MoveParameters<T> VectorEngine<T>::move_parameters(double step) const {
+    kernels::MoveParameters<T> p;
+    assign3(p.gravity, world_.scene.gravity);
+    p.force_damping = static_cast<T>(world_.scene.damping.force);
+    p.moment_damping = static_cast<T>(world_.scene.damping.moment);
+    p.old_step = static_cast<T>(world_.old_step);
+    p.new_step = static_cast<T>(step);
+    // Places are kept relative to the middle of the sample.
+    assign3(p.affine_shift, affine_.shift + affine_.scale.cwiseProduct(middle_));
+    assign3(p.affine_scale, affine_.scale);
+    return p;
+}
+
+template <class T>
+kernels::WallPlane<T> VectorEngine<T>::wall_plane(std::size_t wall) const {
+    const kernels::PlaneWall& plane = world_.planes[wall];
+    kernels::WallPlane<T> p;
+    assign3(p.normal, plane.normal);
+    assign3(p.velocity, plane.velocity);
+    p.advance = static_cast<T>(plane.normal.dot(plane.point - built_walls_[wall]));
+    p.friction = static_cast<T>(plane.friction);
+    p.stiffness = static_cast<T>(plane.normal_stiffness);
+    p.stiffness_ratio = static_cast<T>(plane.stiffness_ratio);
+    return p;
+}
+
+}  // namespace grainfield::core
+
+#include "core/vector/vector_contacts.inc"
+#include "core/vector/vector_lists.inc"
+
+namespace grainfield::core {
+
+template class VectorEngine<float>;
+template class VectorEngine<double>;
+
+}  // namespace grainfield::core

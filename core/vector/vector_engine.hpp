@@ -1,0 +1,106 @@
+#pragma once
+// The fast engine: packed records, vector kernels, domains. T is float in mixed precision (forces
+// and motion in float, positions exact at every list build, long sums in double), double otherwise.
+//
+// A step is one parallel region: every domain copies its ghosts; then, domain by domain while its
+// data are in cache, forces of its contacts and the motion of its spheres. Results are the same,
+// bit for bit, for any number of threads; they depend on when the lists are built, which follows
+// from the state alone.
+
+#include <omp.h>
+
+#include "core/engine.hpp"
+#include "core/vector/domain.hpp"
+#include "core/vector/spatial_order.hpp"
+
+namespace grainfield::core {
+
+/// A thread's own memory.
+template <class T>
+struct Scratch {
+    Aligned<kernels::SphereLoad<T>> loads;
+    Aligned<std::int32_t> touching;
+    std::vector<Candidate<T>> candidates;
+};
+
+template <class T>
+class VectorEngine : public Engine {
+  public:
+    VectorEngine(World& world, const kernels::VectorKernels<T>& kernels);
+
+    void compute_forces(bool sums) override;
+    void move(double step) override;
+    bool fuses() const override { return !world_.options.ledger; }
+    void compute_and_move(double step) override;
+    void pull() override;
+    void pull_resultants() override;
+    void push() override;
+    void forget_walls() override;
+    void invalidate_lists() override { stale_ = true; }
+    std::vector<TouchingContact> touching() const override;
+    std::int64_t touching_count() const override;
+    std::int64_t candidate_count() const override;
+    double resultant_sum() override;
+    bool restore(std::int32_t i, std::int32_t j, const Vec3& shear) override;
+    bool suspicious() const override { return suspicious_; }
+    void cleared() override { suspicious_ = false; }
+    std::int64_t list_builds() const override { return builds_; }
+    std::int64_t searches() const override { return searches_; }
+
+  private:
+    // The pass over the domains: forces, motion, or both.
+    struct Pass {
+        bool forces, sums, motion;
+        double step;  // of the motion [s]
+    };
+    void run(const Pass& pass);
+    void make_scratch() { scratch_.resize(static_cast<std::size_t>(omp_get_max_threads())); }
+    void copy_ghosts(Domain<T>& domain);
+    void domain_forces(Domain<T>& domain, bool sums, Aligned<kernels::SphereLoad<T>>& loads,
+                       Scratch<T>& scratch);
+    void collect(const Pass& pass);
+    kernels::PairParameters<T> pair_parameters() const;
+    kernels::MoveParameters<T> move_parameters(double step) const;
+    kernels::WallPlane<T> wall_plane(std::size_t wall) const;
+
+    // Lists (vector_lists.cpp).
+    double used_reserves() const;
+    void rebuild();
+    void fix_positions();
+    bool choose_reserves();
+    void find_neighbours();
+    double foreseen_way(const Domain<T>& domain, std::size_t k, double steps,
+                        const kernels::AffineMotion& rate) const;
+    kernels::AffineMotion affine_rate() const;
+    kernels::AffineMotion affine_motion(double ahead) const;
+
+    Vec3 present_position(std::size_t slot) const;
+    std::size_t domain_of(std::int32_t slot) const;
+    TouchingContact pair_contact(const Domain<T>& domain, std::size_t k) const;
+    TouchingContact wall_contact(const Domain<T>& domain, const WallList<T>& list,
+                                 std::size_t k) const;
+
+    const kernels::VectorKernels<T>& kernels_;
+    SpatialOrder order_;
+    std::vector<std::int32_t> slot_of_;  // of each sphere
+    std::vector<Domain<T>> domains_;
+    std::vector<Scratch<T>> scratch_;    // of each thread
+
+    BuiltState built_;
+    struct {
+        Vec3Column position;     // centres at the last search, by slot [m]
+        Column<double> reserve;  // by slot [m]
+        std::vector<Vec3> walls;  // their points [m]
+    } searched_;
+    Vec3 middle_ = Vec3::Zero(), sample_size_ = Vec3::Zero();  // of the spheres' centres [m]
+    double smallest_radius_ = 0;                               // [m]
+    std::vector<Vec3> built_walls_;       // their points [m]
+    kernels::AffineMotion affine_;        // of the box, as the last motion foresaw it
+    double used_reserve_ = 0;             // largest share of a reserve that motion used [-]
+    double most_used_ = 0;                // of any reserve since the build [-]
+    double reach_per_reserve_ = 0;        // largest (radius + reserve)/reserve [-]
+    bool stale_ = true, suspicious_ = false;
+    std::int64_t builds_ = 0, searches_ = 0;
+};
+
+}  // namespace grainfield::core

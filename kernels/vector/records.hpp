@@ -1,0 +1,123 @@
+#pragma once
+// The working copy of spheres and contacts that the vector kernels read and write. T is float in
+// mixed precision, double otherwise. Plain data; core/vector/ owns it.
+//
+// Spheres are packed into one record each, because a contact needs all of a record of two spheres
+// that lie anywhere: loading whole records and transposing them in registers beats gathering
+// twelve separate columns. Positions are displacements u since the lists were built, and every
+// candidate knows the exact separation of its two spheres at that time: float resolves an overlap
+// to better than 1 nm that way, however large the sample is.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace grainfield::kernels {
+
+template <class T>
+struct alignas(16 * sizeof(T)) SphereRecord {
+    T u[3];             ///< displacement since the lists were built [m]
+    T radius;           ///< [m]
+    T v[3];             ///< mid-step velocity [m/s]
+    T friction;         ///< tan(phi) [-]
+    T w[3];             ///< mid-step spin [rad/s]
+    T stiffness;        ///< k_n [Pa]
+    T inverse_mass;     ///< of the motion; differs from 1/mass if scaled [1/kg]
+    T inverse_inertia;  ///< of the spin [1/(kg m2)]
+    T mass;             ///< gravitational [kg]
+    T spare;            ///< unused [-]
+};
+static_assert(sizeof(SphereRecord<float>) == 64);
+static_assert(sizeof(SphereRecord<double>) == 128);
+
+/// What the contacts of a sphere add up to.
+template <class T>
+struct alignas(8 * sizeof(T)) SphereLoad {
+    T force[3];   ///< resultant of the contacts [N]
+    T contacts;   ///< number of them [-]
+    T moment[3];  ///< [N m]
+    T spare;      ///< unused [-]
+};
+static_assert(sizeof(SphereLoad<float>) == 32);
+
+/// Where a sphere was when the lists were built, for the check whether they still hold.
+template <class T>
+struct alignas(4 * sizeof(T)) BuiltPlace {
+    T x[3];             ///< centre, relative to the middle of the sample [m]
+    T inverse_reserve;  ///< 1 over what it may move beyond the box's strain [1/m]
+};
+
+/// Separation of the two bodies of a candidate when the lists were built.
+template <class T>
+struct alignas(4 * sizeof(T)) BuiltSeparation {
+    T x[3];  ///< second minus first [m]; unused for walls
+    T gap;   ///< overlap: reach minus distance, negative if apart [m]
+};
+
+/// What a contact carries from step to step; zero where it does not touch.
+template <class T>
+struct alignas(4 * sizeof(T)) ContactHistory {
+    T shear[3];  ///< shear force on the first body [N]
+    T spare;     ///< unused [-]
+};
+
+/// Lanes of the widest vectors. Lists are padded to multiples of it with candidates that never
+/// touch.
+inline constexpr std::size_t most_lanes = 16;
+
+inline constexpr std::size_t padded(std::size_t n) {
+    return (n + most_lanes - 1) / most_lanes * most_lanes;
+}
+
+/// Candidate contacts, two spheres (or a sphere and a wall: b is unused) each. The kernels look at
+/// the first `size`. Of these the first `close`, most of which touch, go through the contact law as
+/// they are; from the others those that touch are picked out first. Both are multiples of
+/// most_lanes. One candidate, `idle`, is padding: it never touches, and its records count nowhere.
+template <class T>
+struct Candidates {
+    std::size_t size, close;
+    std::size_t idle;
+    const std::int32_t *a, *b;  ///< records
+    const BuiltSeparation<T>* separation;
+    ContactHistory<T>* history;
+    std::uint16_t* touching;  ///< a bit a candidate, most_lanes in a word
+    std::int32_t* scratch;    ///< size + most_lanes entries to write to
+};
+
+template <class T>
+struct PairParameters {
+    T stiffness_ratio;     ///< k_s/k_n of the spheres [-]
+    T uniform_stiffness;   ///< k_n of all spheres where it is the same [Pa]
+    T uniform_friction;    ///< tan(phi) of all spheres where it is the same [-]
+    T step;                ///< time since the last force evaluation; 0 at the first [s]
+    std::int32_t counted;  ///< contacts whose first record is below count in the sums
+};
+
+/// A plane wall as one domain sees it.
+template <class T>
+struct WallPlane {
+    T normal[3];        ///< unit, towards the spheres [-]
+    T velocity[3];      ///< during the last step [m/s]
+    T advance;          ///< of the plane along its normal since the lists were built [m]
+    T friction;         ///< tan(phi) [-]
+    T stiffness;        ///< k_n [Pa]
+    T stiffness_ratio;  ///< k_s/k_n of the wall [-]
+};
+
+template <class T>
+struct MoveParameters {
+    T gravity[3];         ///< [m/s2]
+    T force_damping;      ///< alpha [-]
+    T moment_damping;     ///< alpha [-]
+    T old_step;           ///< h_old [s]
+    T new_step;           ///< h_new [s]
+    T affine_shift[3];    ///< of the box since the lists were built, at the end of the step [m]
+    T affine_scale[3];    ///< [-]
+};
+
+struct MoveResult {
+    double used_reserve2 = 0;  ///< largest square of motion beyond affine over reserve [-]
+    double damping_work = 0;   ///< with the ledger only [J]
+    bool too_far = false;      ///< a sphere moved more than half its radius, or is not a number
+};
+
+}  // namespace grainfield::kernels

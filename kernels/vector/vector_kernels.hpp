@@ -1,0 +1,40 @@
+#pragma once
+// The vector kernels: one text for all instruction sets and both precisions (Highway), chosen at
+// run time. They do what the reference kernels do, in the arithmetic of T.
+
+#include "kernels/contact_kernels.hpp"
+#include "kernels/sphere_kernels.hpp"
+#include "kernels/vector/records.hpp"
+
+namespace grainfield::kernels {
+
+/// What a force pass over candidates yields beside the loads.
+struct PassResult {
+    ContactSums sums;           ///< with ContactFeatures::sums only; friction_work too
+    std::int64_t contacts = 0;  ///< touching candidates of the list, counted or not [-]
+    bool too_deep = false;      ///< an overlap exceeds half the smaller radius
+};
+
+template <class T>
+struct VectorKernels {
+    /// Forces of all candidates of a list onto `loads` (both records of each contact).
+    PassResult (*pairs[8])(const SphereRecord<T>*, Candidates<T>, SphereLoad<T>* loads,
+                           const PairParameters<T>&);
+    /// Forces of one wall's candidates; adds to the wall's load.
+    PassResult (*wall[8])(const SphereRecord<T>*, const WallPlane<T>&, Candidates<T>,
+                          SphereLoad<T>* loads, const PairParameters<T>&, WallLoad&);
+    /// Moves records 0 <= k < n (n padded) by one step.
+    MoveResult (*move[16])(SphereRecord<T>*, const SphereLoad<T>*, const BuiltPlace<T>*,
+                           const MoveParameters<T>&, std::size_t n);
+};
+
+/// Place of a kernel in the tables above.
+constexpr std::size_t variant(ContactFeatures f) {
+    return (f.friction ? 1u : 0u) + (f.per_sphere ? 2u : 0u) + (f.sums ? 4u : 0u);
+}
+constexpr std::size_t variant(MotionFeatures f) {
+    return (f.gravity ? 1u : 0u) + (f.damping ? 2u : 0u) + (f.rotation ? 4u : 0u) +
+           (f.ledger ? 8u : 0u);
+}
+
+}  // namespace grainfield::kernels

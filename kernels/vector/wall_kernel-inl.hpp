@@ -1,0 +1,131 @@
+// Forces of the candidates of one plane wall.
+
+#if defined(GRAINFIELD_WALL_KERNEL_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINFIELD_WALL_KERNEL_INL
+#undef GRAINFIELD_WALL_KERNEL_INL
+#else
+#define GRAINFIELD_WALL_KERNEL_INL
+#endif
+
+#include "kernels/vector/pair_kernel-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainfield::kernels::HWY_NAMESPACE {
+
+/// Shear stiffness of a sphere on a wall: K_s of Eq. (4) from k_s = (k_s/k_n) k_n of each body.
+template <class T>
+double wall_shear_stiffness(double radius, double k, const WallPlane<T>& wall,
+                            const PairParameters<T>& p) {
+    const double a = p.stiffness_ratio * k, b = double{wall.stiffness_ratio} * wall.stiffness;
+    return a > 0 && b > 0 ? radius * a * b / (a + b) : 0.0;
+}
+
+template <class T, bool Friction, bool PerSphere, bool Sums>
+PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall, Candidates<T> c,
+                       SphereLoad<T>* loads, const PairParameters<T>& p, WallLoad& total) {
+    constexpr std::size_t n = lanes<T>;
+    const Tag<T> d;
+    PassResult result;
+    const auto half = set<T>(T(0.5)), one = set<T>(1), zero = hn::Zero(d);
+    const auto step = set<T>(p.step);
+    const Lane3<T> normal = set3<T>(wall.normal), outward = scaled(set<T>(-1), normal);
+    const Lane3<T> wall_velocity = set3<T>(wall.velocity);
+    const auto k_wall = set<T>(wall.stiffness), advance = set<T>(wall.advance);
+    const auto ks_wall = set<T>(wall.stiffness_ratio * wall.stiffness);
+    const bool springs = p.stiffness_ratio > 0 && wall.stiffness_ratio * wall.stiffness > 0;
+    Lane3<T> sum{zero, zero, zero};
+    auto stiffness_sum = zero;
+    auto too_deep = hn::Lt(zero, zero);
+    for (std::size_t word = 0; word < c.size / most_lanes; ++word) {
+        std::uint32_t now = 0;
+        for (std::size_t part = 0; part < most_lanes; part += n) {
+            const std::size_t k = word * most_lanes + part;
+            std::array<const T*, n> at, built_at, history;
+            std::array<T*, n> load, history_to;
+            for (std::size_t l = 0; l < n; ++l) {
+                const auto i = c.a[k + l];
+                at[l] = records[i].u;
+                load[l] = loads[i].force;
+                built_at[l] = c.separation[k + l].x;
+                history[l] = history_to[l] = c.history[k + l].shear;
+            }
+            const Lane4<T> u = load4<T>(at, 0);
+            const auto gap = load4<T>(built_at, 0).w;
+            const auto reached = hn::Add(hn::Sub(gap, dot(normal, u.xyz())), advance);
+            const auto touching = hn::Gt(reached, zero);
+            const std::uint32_t bits = bits_of<T>(touching);
+            now |= bits << part;
+            if (bits == 0) continue;
+            const auto overlap = hn::Max(reached, zero);
+            too_deep = hn::Or(too_deep, hn::Gt(overlap, hn::Mul(half, u.w)));
+            const auto w = load4<T>(at, 8), v = load4<T>(at, 4);
+            const auto k_sphere = PerSphere ? w.w : set<T>(p.uniform_stiffness);
+            const auto kn = hn::IfThenElseZero(
+                touching, contact_stiffness<T>(u.w, k_sphere, k_wall));
+            const auto fn = hn::Mul(kn, overlap);
+            Lane3<T> force = scaled(fn, normal);
+            if constexpr (Friction) {
+                const Lane3<T> velocity = wall_velocity - v.xyz();
+                const TangentialLanes<T> motion =
+                    plane_motion<T>(outward, u.w, velocity, w.xyz(), load4<T>(history, 0).xyz(),
+                                    step);
+                const auto gap_before =
+                    hn::MulSub(step, dot(velocity, normal), overlap);
+                const auto ks_sphere = hn::Mul(set<T>(p.stiffness_ratio), k_sphere);
+                const auto ks =
+                    springs ? contact_stiffness<T>(u.w, ks_sphere, ks_wall) : zero;
+                const auto friction = hn::Min(
+                    PerSphere ? v.w : set<T>(p.uniform_friction), set<T>(wall.friction));
+                const ShearLanes<T> spring = load_shear<T, Sums>(motion, gap_before, overlap, ks,
+                                                                 hn::Mul(friction, fn));
+                store4<T>({hn::IfThenElseZero(touching, spring.shear.x),
+                           hn::IfThenElseZero(touching, spring.shear.y),
+                           hn::IfThenElseZero(touching, spring.shear.z), zero},
+                          history_to, 0);
+                const Lane3<T> shear{hn::IfThenElseZero(touching, spring.shear.x),
+                                     hn::IfThenElseZero(touching, spring.shear.y),
+                                     hn::IfThenElseZero(touching, spring.shear.z)};
+                force = force + shear;
+                const Lane3<T> moment = scaled(u.w, cross(outward, shear));
+                add4<T>({moment.x, moment.y, moment.z, zero}, load, 4);
+                if constexpr (Sums) {
+                    result.sums.elastic_shear +=
+                        sum_lanes<T>(hn::IfThenElseZero(touching, spring.elastic));
+                    result.sums.friction_work +=
+                        sum_lanes<T>(hn::IfThenElseZero(touching, spring.slipped));
+                }
+            }
+            add4<T>({force.x, force.y, force.z, hn::IfThenElseZero(touching, one)}, load, 0);
+            sum = sum + force;
+            stiffness_sum = hn::Add(stiffness_sum, kn);
+            result.contacts += __builtin_popcount(bits);
+            if constexpr (Sums) {
+                result.sums.normal_force += sum_lanes<T>(fn);
+                result.sums.elastic_normal += sum_lanes<T>(hn::Mul(half, hn::Mul(fn, overlap)));
+            }
+        }
+        for (std::uint32_t opened = c.touching[word] & ~now; opened != 0; opened &= opened - 1) {
+            const std::size_t k =
+                word * most_lanes + static_cast<std::size_t>(__builtin_ctz(opened));
+            const auto& sphere = records[c.a[k]];
+            T* shear = c.history[k].shear;
+            const double ks = wall_shear_stiffness<T>(
+                sphere.radius, PerSphere ? sphere.stiffness : p.uniform_stiffness, wall, p);
+            const double square = shear[0] * shear[0] + shear[1] * shear[1] + shear[2] * shear[2];
+            if (ks > 0) result.sums.friction_work += 0.5 * square / ks;
+            shear[0] = shear[1] = shear[2] = 0;
+        }
+        c.touching[word] = static_cast<std::uint16_t>(now);
+    }
+    result.sums.contacts = result.contacts;
+    result.too_deep = !hn::AllFalse(d, too_deep);
+    total.force -= Vec3(sum_lanes<T>(sum.x), sum_lanes<T>(sum.y), sum_lanes<T>(sum.z));
+    total.stiffness += sum_lanes<T>(stiffness_sum);
+    total.contacts += result.contacts;
+    return result;
+}
+
+}  // namespace grainfield::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
