@@ -58,7 +58,7 @@ const SceneFault scene_faults[] = {
     {"OutsideTheWalls", "x,y,z,radius\n0,-5,0,0.1\n", scene + floor_wall, "sphere 0 (line 2)"},
     {"IntoAWall", "x,y,z,radius\n0,0.089,0,0.1\n", scene + floor_wall, "beyond wall 0"},
     {"Overlap", "x,y,z,radius\n0,1,0,0.1\n0.189,1,0,0.1\n", scene, "10 %"},
-    {"WideVectorUnits", two_spheres, scene + "[solver]\nisa = \"avx512\"\n", "not in this build"},
+    {"WideVectorUnits", two_spheres, scene + "[solver]\nisa = \"avx1024\"\n", "\"avx512\""},
     {"NoWholeStep", two_spheres,
      "[particles]\nfile = \"spheres.csv\"\n[time]\nstep = 1\nend = 0.1\n", "time.end"},
     {"StressWithoutABox", two_spheres, scene + floor_wall + "stress = 1e5\n", "opposite walls"},

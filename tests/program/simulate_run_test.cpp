@@ -9,11 +9,13 @@
 #include <iterator>
 #include <string>
 
+#include "kernels/vector/vector_tables.hpp"
 #include "tests/program/program.hpp"
 
 namespace grainfield::program_tests {
 namespace {
 
+using testing::AnyOf;
 using testing::HasSubstr;
 
 const std::string head = "[particles]\nfile = \"spheres.csv\"\n";
@@ -48,7 +50,7 @@ TEST(SimulateRun, SummaryIsComplete) {
     EXPECT_EQ(s.at("steps"), 100);
     EXPECT_EQ(s.at("time_step_s"), 1e-5);
     EXPECT_EQ(s.at("threads"), 2);
-    EXPECT_EQ(s.at("isa"), "scalar");
+    EXPECT_THAT(s.at("isa").get<std::string>(), AnyOf("scalar", "avx2", "avx512"));
     EXPECT_EQ(s.at("precision"), "double");
     EXPECT_GT(s.at("wall_seconds").at("total"), 0);
     EXPECT_GT(s.at("particle_steps_per_second"), 0);
@@ -56,6 +58,28 @@ TEST(SimulateRun, SummaryIsComplete) {
     EXPECT_THAT(run.out, HasSubstr(s.at("state_hash").get<std::string>()));
     const Table contacts = read_table(place.read("run/contacts.csv"));
     EXPECT_EQ(s.at("contacts"), contacts.rows.size());
+}
+
+/// Every instruction set and precision by name: the one asked for runs, or the message says why not.
+TEST(SimulateRun, AForcedInstructionSetRunsOrIsRefused) {
+    for (const kernels::InstructionSet isa : kernels::instruction_sets)
+        for (const std::string precision : {"double", "mixed"}) {
+            const std::string name = kernels::name(isa);
+            const Workplace place;
+            const std::string scene = head + "[time]\nstep = 1e-5\nend = 1e-3\n" + floor_wall;
+            const Outcome run =
+                place.simulate(lattice(3), scene,
+                               {"--isa", name, "--set", "solver.precision=" + precision});
+            if (!kernels::runs_here(isa)) {
+                EXPECT_EQ(run.code, 2);
+                EXPECT_THAT(run.err, HasSubstr("solver.isa = \"" + name + "\""));
+                continue;
+            }
+            ASSERT_EQ(run.code, 0) << run.err;
+            const nlohmann::json s = place.json("run/summary.json");
+            EXPECT_EQ(s.at("isa"), name);
+            EXPECT_EQ(s.at("precision"), precision);
+        }
 }
 
 TEST(SimulateRun, QuietSaysNothingOnStderr) {

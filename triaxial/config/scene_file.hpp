@@ -33,7 +33,8 @@ struct SceneFile {
     Vec3 gravity = Vec3::Zero();    ///< acceleration [m/s2]
     ParticleOptions particle;
     core::Damping damping;
-    core::SolverOptions solver;
+    /// Double unless asked otherwise: a scene is small, and more often than not a test of physics.
+    core::SolverOptions solver{.precision = core::Precision::double_};
     std::vector<SceneWall> walls;
     double output_interval = 0;  ///< end/100 unless given [s]
 };
