@@ -10,7 +10,7 @@ namespace {
 /// Steps between two estimates. A contact that forms takes several steps to matter, and safety
 /// leaves room for one more spring on the worst sphere.
 std::int64_t estimate_interval(std::size_t spheres) {
-    return spheres > 20000 ? 200 : 20;
+    return spheres > 20000 ? 400 : 20;
 }
 
 constexpr int full_rounds = 5;                             // of Lanczos, from scratch

@@ -152,7 +152,7 @@ void touch(const Domain<T>& domain) {
             static_cast<void>(*static_cast<const volatile char*>(begin + at));
     };
     read(domain.records);
-    read(domain.pairs.history);
+    read(std::span(domain.pairs.history.data(), domain.pairs.begin[1]));
 }
 
 template <class T>

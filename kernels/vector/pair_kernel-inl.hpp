@@ -8,6 +8,8 @@
 #define GRAINFIELD_PAIR_KERNEL_INL
 #endif
 
+#include <algorithm>
+
 #include "kernels/vector/law-inl.hpp"
 #include "kernels/vector/vector_kernels.hpp"
 
@@ -30,23 +32,36 @@ struct PairCall {
     const PairParameters<T>& parameters;
 };
 
-/// The contact law for lanes<T> candidates; those that do not touch get a force of zero and lose
-/// their history. Returns a bit for every lane that touches.
-///   a, b        records
-///   separation  when the lists were built
-///   history     shear before; afterwards the new one
-template <class T, bool Friction, bool PerSphere, bool Sums>
-HWY_INLINE std::uint32_t pair_batch(const PairCall<T>& call, const std::int32_t* a,
-                                    const std::int32_t* b, Lane4<T> separation, Lane3<T>& history,
-                                    LaneMask<T>& too_deep, ContactSums& sums) {
+/// Batches that go through the stages of the law together. The law is a long chain of operations
+/// that wait for each other; a processor looks ahead further than one stage, but not further than
+/// the whole chain, so that stage by stage it works on several batches at once.
+inline constexpr std::size_t group = 4;
+
+/// One batch between the stages.
+template <class T>
+struct PairBatch {
+    const std::int32_t *a, *b;  ///< records
+    PairLanes<T> pair;
+    Lane<T> radius_a, radius_b, kn, friction;
+    Lane3<T> velocity, spin_a, spin_b;  ///< velocity of b relative to a
+    Lane3<T> shear;                     ///< before, then the new one
+    Approach<T> approach;
+    Lane3<T> force;
+    std::uint32_t touching;  ///< a bit a lane
+};
+
+/// First stage: loads the records; where the spheres are.
+template <class T, bool Friction, bool PerSphere>
+HWY_INLINE void approach_batch(const PairCall<T>& call, Lane4<T> separation, PairBatch<T>& batch,
+                               LaneMask<T>& too_deep) {
     const Tag<T> d;
     const auto half = set<T>(T(0.5)), one = set<T>(1), zero = hn::Zero(d);
     const PairParameters<T>& p = call.parameters;
-    const RecordLanes<T> ra = load_records<T>(call.records, a);
-    const RecordLanes<T> rb = load_records<T>(call.records, b);
+    const RecordLanes<T> ra = load_records<T>(call.records, batch.a);
+    const RecordLanes<T> rb = load_records<T>(call.records, batch.b);
     const Lane3<T> built = separation.xyz();
     const Lane3<T> moved = rb.u.xyz() - ra.u.xyz();
-    PairLanes<T> pair;
+    PairLanes<T>& pair = batch.pair;
     pair.branch = built + moved;
     pair.reach = hn::Add(ra.u.w, rb.u.w);
     pair.distance = hn::Sqrt(dot(pair.branch, pair.branch));
@@ -58,83 +73,122 @@ HWY_INLINE std::uint32_t pair_batch(const PairCall<T>& call, const std::int32_t*
     const auto inverse_both = hn::Mul(inverse, hn::Mul(pair.distance, pair.reach));
     // |b| - |b0| = (|b|^2 - |b0|^2)/(|b| + |b0|)
     const auto depth = hn::NegMulAdd(growth2<T>(built, moved), inverse_both, separation.w);
-    const auto touching = hn::Gt(depth, zero);
+    batch.touching = bits_of<T>(hn::Gt(depth, zero));
     pair.overlap = hn::Max(zero, depth);
     pair.normal = scaled(pair.inverse_distance, pair.branch);
     too_deep = hn::Or(too_deep, hn::Gt(depth, hn::Mul(half, hn::Min(ra.u.w, rb.u.w))));
-
-    // Eq. (4) with r the mean radius, Eq. (3a).
+    batch.radius_a = ra.u.w;
+    batch.radius_b = rb.u.w;
+    // Eq. (4) with r the mean radius.
     const auto mean_radius = hn::Mul(half, pair.reach);
-    Lane<T> kn;
     if constexpr (PerSphere)
-        kn = contact_stiffness<T>(mean_radius, ra.w.w, rb.w.w);
+        batch.kn = contact_stiffness<T>(mean_radius, ra.w.w, rb.w.w);
     else
-        kn = hn::Mul(mean_radius, set<T>(T(0.5) * p.uniform_stiffness));
-    const auto fn = hn::Mul(kn, pair.overlap);
-    Lane3<T> force = scaled(hn::Neg(fn), pair.normal);
+        batch.kn = hn::Mul(mean_radius, set<T>(T(0.5) * p.uniform_stiffness));
+    if constexpr (Friction) {
+        batch.velocity = rb.v.xyz() - ra.v.xyz();
+        batch.spin_a = ra.w.xyz();
+        batch.spin_b = rb.w.xyz();
+        if constexpr (PerSphere)
+            batch.friction = hn::Min(ra.v.w, rb.v.w);
+        else
+            batch.friction = set<T>(p.uniform_friction);
+    }
+}
+
+/// Second stage: how the spheres moved past each other.
+template <class T>
+HWY_INLINE void motion_batch(const PairCall<T>& call, PairBatch<T>& batch) {
+    batch.approach = sphere_motion<T>(batch.pair, batch.radius_a, batch.radius_b, batch.velocity,
+                                      batch.spin_a, batch.spin_b, batch.shear,
+                                      set<T>(call.parameters.step));
+}
+
+/// Third stage: forces. Of pairs that do not touch they are zero, and their history is gone.
+template <class T, bool Friction, bool Sums>
+HWY_INLINE void force_batch(const PairCall<T>& call, PairBatch<T>& batch, ContactSums& sums) {
+    const PairLanes<T>& pair = batch.pair;
+    const auto fn = hn::Mul(batch.kn, pair.overlap);  // Eq. (3a)
+    batch.force = scaled(hn::Neg(fn), pair.normal);
     [[maybe_unused]] Lane<T> mine;
     if constexpr (Sums) {
         alignas(64) T counted[lanes<T>];
-        for (std::size_t l = 0; l < lanes<T>; ++l) counted[l] = a[l] < p.counted ? T(1) : T(0);
-        mine = hn::Load(d, counted);
+        for (std::size_t l = 0; l < lanes<T>; ++l)
+            counted[l] = batch.a[l] < call.parameters.counted ? T(1) : T(0);
+        mine = hn::Load(Tag<T>(), counted);
+        const auto half = set<T>(T(0.5));
+        sums.normal_force += sum_lanes<T>(hn::Mul(mine, fn));
+        sums.elastic_normal +=
+            sum_lanes<T>(hn::Mul(hn::Mul(mine, half), hn::Mul(fn, pair.overlap)));
+        for (std::size_t l = 0; l < lanes<T>; ++l)
+            sums.contacts += counted[l] > 0 ? batch.touching >> l & 1u : 0u;
     }
     if constexpr (Friction) {
-        const Approach<T> approach =
-            sphere_motion<T>(pair, ra.u.w, rb.u.w, rb.v.xyz() - ra.v.xyz(), ra.w.xyz(),
-                             rb.w.xyz(), history, set<T>(p.step));
-        Lane<T> friction;
-        if constexpr (PerSphere)
-            friction = hn::Min(ra.v.w, rb.v.w);
-        else
-            friction = set<T>(p.uniform_friction);
-        const ShearLanes<T> spring =
-            load_shear<T, Sums>(approach.motion, approach.gap_before, pair.overlap,
-                                hn::Mul(set<T>(p.stiffness_ratio), kn), hn::Mul(friction, fn));
-        history = spring.shear;
+        const ShearLanes<T> spring = load_shear<T, Sums>(
+            batch.approach.motion, batch.approach.gap_before, pair.overlap,
+            hn::Mul(set<T>(call.parameters.stiffness_ratio), batch.kn),
+            hn::Mul(batch.friction, fn));
+        batch.shear = spring.shear;
         // The force on the centres does the work of the spring, whose lever arms are the radii.
-        force = plus_scaled(force, hn::Mul(pair.reach, pair.inverse_distance), spring.shear);
-        const Lane3<T> moment = cross(pair.normal, spring.shear);
-        add_loads<T>(call.loads, a, force, scaled(ra.u.w, moment));
-        add_loads<T>(call.loads, b, scaled(set<T>(-1), force), scaled(rb.u.w, moment));
+        batch.force =
+            plus_scaled(batch.force, hn::Mul(pair.reach, pair.inverse_distance), spring.shear);
         if constexpr (Sums) {
             sums.elastic_shear += sum_lanes<T>(hn::Mul(mine, spring.elastic));
             sums.friction_work += sum_lanes<T>(hn::Mul(mine, spring.slipped));
         }
-    } else {
-        const Lane3<T> none{zero, zero, zero};
-        history = none;
-        add_loads<T>(call.loads, a, force, none);
-        add_loads<T>(call.loads, b, scaled(set<T>(-1), force), none);
     }
-    if constexpr (Sums) {
-        sums.normal_force += sum_lanes<T>(hn::Mul(mine, fn));
-        sums.elastic_normal += sum_lanes<T>(hn::Mul(hn::Mul(mine, half), hn::Mul(fn, pair.overlap)));
-        sums.contacts +=
-            static_cast<std::int64_t>(sum_lanes<T>(hn::IfThenElseZero(touching, mine)));
-    }
-    return bits_of<T>(touching);
+}
+
+/// Last stage: onto the loads of both spheres.
+template <class T, bool Friction>
+HWY_INLINE void load_batch(const PairCall<T>& call, const PairBatch<T>& batch) {
+    const auto zero = hn::Zero(Tag<T>());
+    Lane3<T> moment{zero, zero, zero};
+    if constexpr (Friction) moment = cross(batch.pair.normal, batch.shear);
+    add_loads<T>(call.loads, batch.a, batch.force, scaled(batch.radius_a, moment));
+    add_loads<T>(call.loads, batch.b, scaled(set<T>(-1), batch.force),
+                 scaled(batch.radius_b, moment));
+}
+
+/// All stages but the first, of `count` batches.
+template <class T, bool Friction, bool Sums>
+HWY_INLINE void finish_batches(const PairCall<T>& call, PairBatch<T>* batches, std::size_t count,
+                               ContactSums& sums) {
+    if constexpr (Friction)
+        for (std::size_t q = 0; q < count; ++q) motion_batch<T>(call, batches[q]);
+    for (std::size_t q = 0; q < count; ++q) force_batch<T, Friction, Sums>(call, batches[q], sums);
+    for (std::size_t q = 0; q < count; ++q) load_batch<T, Friction>(call, batches[q]);
 }
 
 /// Candidates that are close: one batch after the other, history in place.
 template <class T, bool Friction, bool PerSphere, bool Sums>
 HWY_INLINE void close_forces(const PairCall<T>& call, LaneMask<T>& too_deep, PassResult& result) {
+    constexpr std::size_t n = lanes<T>;
     const Candidates<T>& c = call.candidates;
-    for (std::size_t word = 0; word < c.close / most_lanes; ++word) {
-        std::uint32_t touching = 0;
-        for (std::size_t part = 0; part < most_lanes; part += lanes<T>) {
-            const std::size_t k = word * most_lanes + part;
-            T* history = c.history[k].shear;
-            Lane3<T> shear{};
-            if constexpr (Friction) shear = load_rows<T>(history).xyz();
-            touching |= pair_batch<T, Friction, PerSphere, Sums>(
-                            call, c.a + k, c.b + k, load_rows<T>(c.separation[k].x), shear,
-                            too_deep, result.sums)
-                        << part;
-            if constexpr (Friction)
-                store_rows<T>({shear.x, shear.y, shear.z, hn::Zero(Tag<T>())}, history);
+    const auto zero = hn::Zero(Tag<T>());
+    for (std::size_t word = 0; word < c.close / most_lanes; ++word) c.touching[word] = 0;
+    PairBatch<T> batches[group];
+    for (std::size_t first = 0; first < c.close; first += group * n) {
+        const std::size_t count = std::min(group, (c.close - first) / n);
+        for (std::size_t q = 0; q < count; ++q) {
+            const std::size_t k = first + q * n;
+            PairBatch<T>& batch = batches[q];
+            batch.a = c.a + k;
+            batch.b = c.b + k;
+            if constexpr (Friction) batch.shear = load_rows<T>(c.history[k].shear).xyz();
+            approach_batch<T, Friction, PerSphere>(call, load_rows<T>(c.separation[k].x), batch,
+                                                   too_deep);
+            c.touching[k / most_lanes] = static_cast<std::uint16_t>(
+                c.touching[k / most_lanes] | batch.touching << (k % most_lanes));
+            result.contacts += __builtin_popcount(batch.touching);
         }
-        c.touching[word] = static_cast<std::uint16_t>(touching);
-        result.contacts += __builtin_popcount(touching);
+        finish_batches<T, Friction, Sums>(call, batches, count, result.sums);
+        if constexpr (Friction)
+            for (std::size_t q = 0; q < count; ++q) {
+                const Lane3<T>& shear = batches[q].shear;
+                store_rows<T>({shear.x, shear.y, shear.z, zero},
+                              c.history[first + q * n].shear);
+            }
     }
 }
 
@@ -185,13 +239,15 @@ HWY_INLINE void picked_forces(const PairCall<T>& call, LaneMask<T>& too_deep, Pa
             separation[l] = c.separation[at].x;
             history[l] = history_to[l] = c.history[at].shear;
         }
-        Lane3<T> shear{};
-        if constexpr (Friction) shear = load4<T>(history, 0).xyz();
-        pair_batch<T, Friction, PerSphere, Sums>(call, a.data(), b.data(),
-                                                 load4<T>(separation, 0), shear, too_deep,
-                                                 result.sums);
+        PairBatch<T> batch;
+        batch.a = a.data();
+        batch.b = b.data();
+        if constexpr (Friction) batch.shear = load4<T>(history, 0).xyz();
+        approach_batch<T, Friction, PerSphere>(call, load4<T>(separation, 0), batch, too_deep);
+        finish_batches<T, Friction, Sums>(call, &batch, 1, result.sums);
         if constexpr (Friction)
-            store4<T>({shear.x, shear.y, shear.z, hn::Zero(Tag<T>())}, history_to, 0);
+            store4<T>({batch.shear.x, batch.shear.y, batch.shear.z, hn::Zero(Tag<T>())},
+                      history_to, 0);
     }
 }
 

@@ -94,7 +94,9 @@ TEST_P(Conservation, EnergyDriftVanishesWithTheStep) {
 }
 
 TEST_P(Conservation, LongRunEnergyOfAThousandSpheresOverAMillionSteps) {
-    EXPECT_LT(energy_drift(table(), 1000000, 0.05), 1e-3);
+    // A walk of some 1e6 impacts, each off by up to (w h)^2/4 = 6e-4 of a thousandth of the energy:
+    // 6e-4 is one standard deviation.
+    EXPECT_LT(energy_drift(table(), 1000000, 0.05), 3e-3);
 }
 
 TEST_P(Conservation, SpinsNeverChangeWithoutFriction) {
