@@ -5,12 +5,14 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
-#include "core/contact_list.hpp"
 #include "core/frequency.hpp"
 #include "core/neighbour_search.hpp"
 #include "core/random.hpp"
 #include "core/simulation.hpp"
+#include "kernels/vector/vector_tables.hpp"
 #include "randomfield/block_field.hpp"
 
 namespace {
@@ -53,34 +55,73 @@ void report_rates(benchmark::State& state, const core::Simulation& simulation) {
     state.counters["contacts"] = static_cast<double>(simulation.touching_contacts());
 }
 
-void whole_step(benchmark::State& state) {
-    core::Simulation simulation(disordered_lattice(static_cast<int>(state.range(0))),
-                                kernels::reference_kernels());
-    for (auto _ : state) {
-        simulation.compute_forces();
-        simulation.advance(1e-5);
-    }
+/// The whole step, by kernels: list, forces, motion.
+void whole_step(benchmark::State& state, const kernels::KernelTable* kernels, int cubes) {
+    core::Simulation simulation(disordered_lattice(cubes), *kernels);
+    simulation.compute_forces();
+    for (auto _ : state) simulation.step(1e-5, [] {});
     report_rates(state, simulation);
 }
-BENCHMARK(whole_step)->Arg(10)->Arg(33)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-void advance_only(benchmark::State& state) {
-    core::Simulation simulation(disordered_lattice(static_cast<int>(state.range(0))),
-                                kernels::reference_kernels());
+/// Motion alone.
+void advance_only(benchmark::State& state, const kernels::KernelTable* kernels) {
+    core::Simulation simulation(disordered_lattice(33), *kernels);
     simulation.compute_forces();
     for (auto _ : state) simulation.advance(1e-12);
     report_rates(state, simulation);
 }
-BENCHMARK(advance_only)->Arg(33)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-void list_build(benchmark::State& state) {
-    const core::Scene scene = disordered_lattice(static_cast<int>(state.range(0)));
-    core::ContactList list;
-    for (auto _ : state) list.build(scene.spheres, scene.walls, 5e-4);
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(scene.spheres.size()));
-    state.counters["candidates"] = static_cast<double>(list.size());
+/// Forces alone.
+void forces_only(benchmark::State& state, const kernels::KernelTable* kernels) {
+    core::Simulation simulation(disordered_lattice(33), *kernels);
+    for (auto _ : state) simulation.compute_forces();
+    report_rates(state, simulation);
 }
-BENCHMARK(list_build)->Arg(33)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// Forces with a neighbour search before each.
+void search_and_forces(benchmark::State& state, const kernels::KernelTable* kernels) {
+    core::Simulation simulation(disordered_lattice(33), *kernels);
+    for (auto _ : state) {
+        simulation.rebuild_lists();
+        simulation.compute_forces();
+    }
+    report_rates(state, simulation);
+}
+
+/// Registers the above for the reference and all kernels that run here.
+const bool registered = [] {
+    std::vector<const kernels::KernelTable*> tables{&kernels::reference_kernels()};
+    for (const kernels::InstructionSet isa : kernels::instruction_sets)
+        if (kernels::runs_here(isa))
+            for (const auto* table : {kernels::double_table(isa), kernels::mixed_table(isa)})
+                tables.push_back(table);
+    for (const auto* table : tables) {
+        const std::string name = std::string("/") + (table->reference ? "reference" : table->isa) +
+                                 "/" + table->precision;
+        const auto add = [&](const std::string& stage, auto run) {
+            benchmark::RegisterBenchmark((stage + name).c_str(), run)
+                ->Unit(benchmark::kMillisecond)
+                ->UseRealTime();
+        };
+        for (const int cubes : {10, 33})
+            add("whole_step/" + std::to_string(cubes),
+                [=](benchmark::State& state) { whole_step(state, table, cubes); });
+        add("forces", [=](benchmark::State& state) { forces_only(state, table); });
+        add("motion", [=](benchmark::State& state) { advance_only(state, table); });
+        add("search_and_forces", [=](benchmark::State& state) { search_and_forces(state, table); });
+    }
+    return true;
+}();
+
+void neighbour_search(benchmark::State& state) {
+    const core::Scene scene = disordered_lattice(33);
+    std::size_t found = 0;
+    for (auto _ : state)
+        found = core::find_pairs(scene.spheres.position, scene.spheres.radius, 5e-4).size();
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(scene.spheres.size()));
+    state.counters["pairs"] = static_cast<double>(found);
+}
+BENCHMARK(neighbour_search)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void frequency_estimate(benchmark::State& state) {
     core::Simulation simulation(disordered_lattice(static_cast<int>(state.range(0))),

@@ -43,6 +43,8 @@ class Engine {
     virtual void pull_resultants() = 0;
     /// Takes over velocities, spins and properties changed in the store.
     virtual void push() = 0;
+    /// Multiplies velocities and spins; the store has to be pulled afterwards.
+    virtual void scale_velocities(double factor) = 0;
     /// Takes over walls that were replaced: history with the old ones is lost.
     virtual void forget_walls() = 0;
     /// The next evaluation builds new lists.

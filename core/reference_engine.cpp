@@ -94,6 +94,16 @@ void ReferenceEngine::move(double step) {
     }
 }
 
+void ReferenceEngine::scale_velocities(double factor) {
+    ParticleStore& s = world_.scene.spheres;
+    for_chunks(s.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            s.velocity.set(i, factor * s.velocity[i]);
+            s.spin.set(i, factor * s.spin[i]);
+        }
+    });
+}
+
 // --- lists ---------------------------------------------------------------------------------------
 
 kernels::AffineMotion ReferenceEngine::affine_motion(double ahead) const {

@@ -20,6 +20,7 @@ class ReferenceEngine : public Engine {
     void pull() override {}
     void pull_resultants() override {}
     void push() override;
+    void scale_velocities(double factor) override;
     void forget_walls() override { contacts_.forget_walls(); }
     void invalidate_lists() override;
     std::vector<TouchingContact> touching() const override;

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/errors.hpp"
-#include "core/parallel.hpp"
 #include "core/simulation.hpp"
 
 namespace grainfield::core {
@@ -54,14 +53,8 @@ void Simulation::set_properties(std::span<const double> normal_stiffness,
 }
 
 void Simulation::scale_velocities(double factor) {
-    ParticleStore& s = changing();
-    for_chunks(s.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            s.velocity.set(i, factor * s.velocity[i]);
-            s.spin.set(i, factor * s.spin[i]);
-        }
-    });
-    engine_->push();
+    engine_->scale_velocities(factor);
+    store_current_ = false;
 }
 
 void Simulation::set_walls(std::vector<Wall> walls) {

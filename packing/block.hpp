@@ -43,6 +43,6 @@ struct Block {
 /// mean stress of no more than twice that of the block's own weight.
 /// Throws InputError if the porosity cannot be reached, naming the porosity that was.
 Block pack_block(const PackingOptions& options, const Grading& grading, const Material& material,
-                 core::Monitor& monitor, const core::SolverOptions& solver = {});
+                 core::Monitor& monitor);
 
 }  // namespace grainfield::packing

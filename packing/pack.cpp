@@ -45,7 +45,7 @@ Packing pack(const PackingOptions& options, const Grading& grading, const Materi
     Packing packing;
     packing.options = options;
     packing.grading = grading;
-    packing.block = pack_block(options, grading, material, monitor, solver);
+    packing.block = pack_block(options, grading, material, monitor);
     const std::vector<std::size_t> order = order_in_space(packing.block.spheres, options.block);
     packing.block.spheres = reordered(packing.block.spheres, order);
     packing.block.hanging = reordered(packing.block.hanging, order);

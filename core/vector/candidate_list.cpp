@@ -1,15 +1,9 @@
 #include "core/vector/candidate_list.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace grainfield::core {
-
-std::uint8_t stretch_of(double used) {
-    const double stretch = std::floor(used * static_cast<double>(stretches));
-    return static_cast<std::uint8_t>(std::clamp(stretch, 0.0, stretches - 1.0));
-}
 
 /// Touching contacts, ascending by source.
 template <class T>

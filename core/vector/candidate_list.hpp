@@ -1,6 +1,7 @@
 #pragma once
 // Candidate contacts of a domain, in the order in which the kernels take them.
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -16,7 +17,11 @@ namespace grainfield::core {
 inline constexpr std::size_t stretches = 8;
 
 /// Stretch of a candidate that touches once the share `used` of its reserves is used up [-].
-std::uint8_t stretch_of(double used);
+inline std::uint8_t stretch_of(double used) {
+    // Truncation is rounding down: what overlaps already (used < 0) belongs to the first.
+    const double stretch = used * static_cast<double>(stretches);
+    return stretch > 0 ? static_cast<std::uint8_t>(std::min(stretch, stretches - 1.0)) : std::uint8_t{0};
+}
 
 /// What a candidate is made from.
 template <class T>

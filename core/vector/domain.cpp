@@ -79,22 +79,22 @@ void build_lists(Domain<T>& domain, const BuiltState& state, std::span<const Wal
                  std::vector<Candidate<T>>& candidates) {
     candidates.clear();
     candidates.reserve(domain.neighbours.size());
+    const Vec3Column& x = state.position;
     for (std::size_t k = 0; k < domain.neighbours.size(); ++k) {
         const auto [a, b] = domain.neighbours[k];
         const std::int32_t i = domain.slot(a), j = domain.slot(b);
-        const Vec3 branch = state.position[j] - state.position[i];
+        const double dx = x.x[j] - x.x[i], dy = x.y[j] - x.y[i], dz = x.z[j] - x.z[i];
         const double reach = state.radius[i] + state.radius[j];
         const double room = state.reserve[i] + state.reserve[j];
-        const double square = branch.squaredNorm();
+        const double square = dx * dx + dy * dy + dz * dz;
         if (square >= (reach + room) * (reach + room)) continue;
         const double gap = reach - std::sqrt(square);
-        candidates.push_back({static_cast<std::int32_t>(k),
-                              a,
-                              b,
-                              stretch_of(-gap / room),
-                              {{static_cast<T>(branch.x()), static_cast<T>(branch.y()),
-                                static_cast<T>(branch.z())},
-                               static_cast<T>(gap)}});
+        candidates.push_back(
+            {static_cast<std::int32_t>(k),
+             a,
+             b,
+             stretch_of(-gap / room),
+             {{static_cast<T>(dx), static_cast<T>(dy), static_cast<T>(dz)}, static_cast<T>(gap)}});
     }
     domain.pairs.build(candidates, domain.idle());
     build_wall_lists(domain, state, walls, candidates);

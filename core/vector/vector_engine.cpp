@@ -76,6 +76,18 @@ void VectorEngine<T>::push() {
 }
 
 template <class T>
+void VectorEngine<T>::scale_velocities(double factor) {
+    const auto f = static_cast<T>(factor);
+#pragma omp parallel for schedule(static) if (domains_.size() > 1)
+    for (std::size_t d = 0; d < domains_.size(); ++d)
+        for (std::size_t k = 0; k < domains_[d].own; ++k)
+            for (int a = 0; a < 3; ++a) {
+                domains_[d].records[k].v[a] *= f;
+                domains_[d].records[k].w[a] *= f;
+            }
+}
+
+template <class T>
 void VectorEngine<T>::pull() {
     ParticleStore& s = world_.scene.spheres;
 #pragma omp parallel for schedule(static) if (domains_.size() > 1)

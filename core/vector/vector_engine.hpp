@@ -35,6 +35,7 @@ class VectorEngine : public Engine {
     void pull() override;
     void pull_resultants() override;
     void push() override;
+    void scale_velocities(double factor) override;
     void forget_walls() override;
     void invalidate_lists() override { stale_ = true; }
     std::vector<TouchingContact> touching() const override;
@@ -67,6 +68,7 @@ class VectorEngine : public Engine {
     double used_reserves() const;
     void rebuild();
     void fix_positions();
+    void name_lost_sphere(const Domain<T>& domain) const;
     bool choose_reserves();
     void find_neighbours();
     double foreseen_way(const Domain<T>& domain, std::size_t k, double steps,

@@ -1,0 +1,21 @@
+#pragma once
+// The sample that step rates are measured on: clones of the paper's block at 100 kPa.
+
+#include <array>
+#include <filesystem>
+
+#include "core/scene.hpp"
+
+namespace grainfield::bench {
+
+/// The paper's sample, held at 100 kPa without gravity: read from `file` (.h5), or packed and left
+/// there for the next time (some minutes). Throws what packing and files throw.
+core::Scene full_sample(const std::filesystem::path& file);
+
+/// Mirror images of a scene's spheres, `times` along each axis, in a box that fits.
+core::Scene mirrored(const core::Scene& scene, const std::array<int, 3>& times);
+
+/// The spheres of a scene in blocks below `blocks`, in a box that fits.
+core::Scene part(const core::Scene& scene, const std::array<int, 3>& blocks);
+
+}  // namespace grainfield::bench

@@ -1,0 +1,159 @@
+// Every engine against the reference, and against itself by another way.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/vector/candidate_list.hpp"
+#include "core/vector/spatial_order.hpp"
+#include "tests/core/test_scenes.hpp"
+
+namespace grainfield::core {
+namespace {
+
+/// A dense, frictional crowd in a box with a moving lid: several domains, every kind of contact.
+Scene crowd(bool per_sphere) {
+    std::vector<Ball> balls = loose_balls({20, 18, 20}, 0.98, 0.3);
+    for (std::size_t i = 0; i < balls.size(); ++i) balls[i].w = 3.0 * random_vec(i, 9);
+    if (per_sphere)
+        for (std::size_t i = 0; i < balls.size(); i += 2) balls[i].stiffness *= 5;
+    Scene scene = scene_of(balls, 0.4);
+    scene.walls = box_walls(loose_box({20, 18, 20}, 0.98), plane(Vec3::Zero(), Vec3::UnitX(), 0.3));
+    scene.walls[3].velocity = Vec3(0, -0.2, 0);
+    scene.gravity = Vec3(0, -9.81, 0);
+    scene.damping = {0.2, 0.1};
+    return scene;
+}
+
+using Engines = KernelTest;
+
+TEST_P(Engines, ForcesAndMotionAreThoseOfTheReference) {
+    for (const bool per_sphere : {false, true}) {
+        Simulation sim(crowd(per_sphere), table());
+        Simulation reference(crowd(per_sphere), kernels::reference_kernels());
+        ASSERT_GE(sim.size(), 7200u) << "not more than one domain";
+        const double step = 1e-4;
+        for (int k = 0; k < 5; ++k) {
+            sim.compute_forces(true);
+            reference.compute_forces(true);
+            ASSERT_EQ(sim.touching_contacts(), reference.touching_contacts());
+            // Overlaps of some 1e-2 of the radius come in with the round-off of the distance, the
+            // shear forces with that of a step's motion; a few contacts a sphere add up.
+            const double scale = 0.5 * test_radius * 5 * test_stiffness * 0.1 * test_radius;
+            double worst = 0;
+            for (std::size_t i = 0; i < sim.size(); ++i)
+                worst = std::max(worst, (sim.resultant(i) - reference.resultant(i)).norm());
+            EXPECT_LT(worst, roundoff(1000) * scale) << k;
+            for (std::size_t w = 0; w < 6; ++w) {
+                const kernels::WallLoad &a = sim.wall_loads()[w], &b = reference.wall_loads()[w];
+                EXPECT_LT((a.force - b.force).norm(), roundoff(1000) * (scale + b.force.norm()));
+                EXPECT_NEAR(a.stiffness, b.stiffness, roundoff(100) * b.stiffness);
+                EXPECT_EQ(a.contacts, b.contacts);
+            }
+            const kernels::ContactSums &a = sim.contact_sums(), &b = reference.contact_sums();
+            EXPECT_EQ(a.contacts, b.contacts);
+            EXPECT_NEAR(a.normal_force, b.normal_force, roundoff(100) * b.normal_force);
+            EXPECT_NEAR(a.elastic_normal, b.elastic_normal, roundoff(200) * b.elastic_normal);
+            EXPECT_NEAR(a.elastic_shear, b.elastic_shear, roundoff(1e4) * b.elastic_shear);
+            sim.advance(step);
+            reference.advance(step);
+        }
+    }
+}
+
+TEST_P(Engines, StepsInOneGoGiveTheSameBits) {
+    const auto hash = [&](bool one_go, bool ledger) {
+        Simulation sim(crowd(true), table(), {.ledger = ledger});
+        for (int k = 0; k < 60; ++k) {
+            const auto steer = [&] { sim.set_wall_velocity(1, Vec3(-1e-3 * k, 0, 0)); };
+            if (one_go) {
+                sim.step(1e-4, steer);
+            } else {
+                sim.compute_forces(k % 7 == 0);
+                steer();
+                sim.advance(1e-4);
+            }
+        }
+        sim.compute_forces();
+        return sim.state_hash();
+    };
+    const std::string usual = hash(false, false);
+    EXPECT_EQ(hash(true, false), usual);
+    EXPECT_EQ(hash(true, true), usual);
+}
+
+TEST_P(Engines, ScaledVelocitiesAreScaled) {
+    Simulation sim(crowd(false), table());
+    const ParticleStore before = sim.spheres();
+    sim.scale_velocities(0.5);
+    for (std::size_t i = 0; i < sim.size(); i += 97) {
+        EXPECT_EQ(sim.spheres().velocity[i], as_kept(0.5 * before.velocity[i]));
+        EXPECT_EQ(sim.spheres().spin[i], as_kept(0.5 * before.spin[i]));
+        EXPECT_EQ(sim.spheres().position[i], before.position[i]);
+    }
+}
+
+GRAINFIELD_FOR_ALL_KERNELS(Engines);
+
+TEST(SpatialOrder, IsAPermutationInEvenAndCompactDomains) {
+    Vec3Column x;
+    x.resize(10000);
+    for (std::size_t i = 0; i < x.size(); ++i) x.set(i, random_vec(i));
+    const SpatialOrder order = order_in_space(x, 700);
+    EXPECT_EQ(std::set<std::int32_t>(order.sphere.begin(), order.sphere.end()).size(), x.size());
+    ASSERT_EQ(order.first.size(), 14u + 1u);
+    EXPECT_EQ(order.first.front(), 0u);
+    EXPECT_EQ(order.first.back(), x.size());
+    for (std::size_t d = 0; d + 1 < order.first.size(); ++d) {
+        const std::size_t count = order.first[d + 1] - order.first[d];
+        EXPECT_NEAR(static_cast<double>(count), 10000.0 / 14, 2.0);
+        Vec3 lower = x[order.sphere[order.first[d]]], upper = lower;
+        for (std::size_t k = order.first[d]; k < order.first[d + 1]; ++k) {
+            lower = lower.cwiseMin(x[order.sphere[k]]);
+            upper = upper.cwiseMax(x[order.sphere[k]]);
+        }
+        // A fourteenth of a cube of side 2; no side more than about two of the others.
+        EXPECT_LT((upper - lower).prod(), 1.1 * 8 / 14);
+        EXPECT_LT((upper - lower).maxCoeff(), 2.3 * (upper - lower).minCoeff());
+    }
+    EXPECT_EQ(order_in_space(x, 700).sphere, order.sphere);
+}
+
+TEST(SpatialOrder, TakesSpheresInOnePlaceAndNone) {
+    Vec3Column same;
+    same.resize(5000);
+    EXPECT_EQ(order_in_space(same, 700).sphere.size(), 5000u);
+    EXPECT_TRUE(order_in_space(Vec3Column{}, 700).sphere.empty());
+}
+
+TEST(CandidateList, KeepsHistoryThroughBuildsAndStretches) {
+    CandidateList<float> list;
+    const auto candidate = [](std::int32_t source, std::uint8_t stretch) {
+        return Candidate<float>{source, source, source + 1, stretch, {{1, 0, 0}, -0.1f}};
+    };
+    list.build(std::vector{candidate(2, 0), candidate(3, 1), candidate(5, 0)}, 99);
+    ASSERT_EQ(list.count(), 3u);
+    EXPECT_EQ(list.source, (std::vector<std::int32_t>{2, 5, 3}));
+    EXPECT_EQ(list.a.back(), 99) << "no padding at the end";
+    for (std::size_t k : {1u, 2u}) {  // sources 5 and 3 touch
+        list.set_touching(k);
+        list.history[k].shear[0] = static_cast<float>(list.source[k]);
+    }
+    list.build(std::vector{candidate(1, 0), candidate(3, 0), candidate(4, 2), candidate(5, 7)}, 99);
+    EXPECT_EQ(list.source, (std::vector<std::int32_t>{1, 3, 4, 5}));
+    for (std::size_t k = 0; k < 4; ++k) {
+        const bool kept = list.source[k] == 3 || list.source[k] == 5;
+        EXPECT_EQ(list.touches(k), kept);
+        EXPECT_EQ(list.history[k].shear[0], kept ? static_cast<float>(list.source[k]) : 0.0f);
+    }
+    Aligned<std::int32_t> scratch;
+    EXPECT_EQ(list.view(0.0, scratch).close, 16u);
+    EXPECT_EQ(list.view(0.99, scratch).size, 16u);
+}
+
+}  // namespace
+}  // namespace grainfield::core
