@@ -26,7 +26,8 @@ std::string cpu_name() {
 double triad_bandwidth(std::size_t bytes) {
     const auto n = static_cast<std::ptrdiff_t>(bytes / 24);
     std::vector<double> a(static_cast<std::size_t>(n), 0.0), b = a, c = a;
-    const int repeats = std::max(1, static_cast<int>(std::size_t{1} << 30) / static_cast<int>(bytes));
+    const int repeats =
+        std::max(1, static_cast<int>(std::size_t{1} << 30) / static_cast<int>(bytes));
     double best = 0;
     for (int run = 0; run < 5; ++run) {
         const double start = omp_get_wtime();

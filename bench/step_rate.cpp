@@ -36,9 +36,8 @@ class ShearedSample {
         : simulation_(scene, kernels), threads_(threads) {
         const Vec3 size = packing::box_dimensions(simulation_);
         for (const std::size_t wall : {0u, 1u, 4u, 5u})
-            servos_.emplace_back(wall,
-                                 core::WallServo::Options{.stress = confining_stress,
-                                                          .max_speed = 0.25 * size.x()});
+            servos_.emplace_back(wall, core::WallServo::Options{.stress = confining_stress,
+                                                                .max_speed = 0.25 * size.x()});
         const Vec3 low = simulation_.walls()[2].point;
         simulation_.add_velocities([&](std::size_t, const Vec3& x) {
             return Vec3(0, -strain_rate * (x.y() - low.y()), 0);
@@ -56,8 +55,7 @@ class ShearedSample {
                 simulation_.set_wall_velocity(3, Vec3(0, -strain_rate * size.y(), 0));
                 for (core::WallServo& servo : servos_)
                     servo.steer(simulation_,
-                                packing::wall_area(size, static_cast<int>(servo.wall()) / 2),
-                                step);
+                                packing::wall_area(size, static_cast<int>(servo.wall()) / 2), step);
             });
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
@@ -127,8 +125,11 @@ std::string measure(std::vector<Case>& cases, int rounds, int steps, double tria
 
 Case make_case(const std::string& name, const core::Scene& scene,
                const kernels::KernelTable& kernels, int threads) {
-    return {name,    kernels.isa, kernels.precision,
-            threads, std::make_unique<ShearedSample>(scene, kernels, threads),
+    return {name,
+            kernels.isa,
+            kernels.precision,
+            threads,
+            std::make_unique<ShearedSample>(scene, kernels, threads),
             {}};
 }
 
@@ -150,7 +151,8 @@ void step_rates(const core::Scene& full, const std::filesystem::path& out, int r
             continue;
         }
         for (const auto* table : {kernels::mixed_table(isa), kernels::double_table(isa)})
-            for (const int threads : {1, 2}) cases.push_back(make_case("full", full, *table, threads));
+            for (const int threads : {1, 2})
+                cases.push_back(make_case("full", full, *table, threads));
     }
     core::write_file_atomically(out / "step_rate.csv", header + measure(cases, rounds, 50, triad));
 }
@@ -196,7 +198,8 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     app.add_option("--step", step, "Time step [s]")->capture_default_str();
-    app.add_flag("--quick", quick, "Only the default kernels at rest; prints one line, writes nothing");
+    app.add_flag("--quick", quick,
+                 "Only the default kernels at rest; prints one line, writes nothing");
     app.add_flag("--sizes", large, "Also other sizes, up to 1.2 million spheres");
     CLI11_PARSE(app, argc, argv);
     try {

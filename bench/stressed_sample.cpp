@@ -72,8 +72,8 @@ core::Scene mirrored(const core::Scene& scene, const std::array<int, 3>& times) 
                     all.position.set(k, box.lower + x);
                     all.radius[k] = s.radius[i];
                 }
-    return scene_in(std::move(all), {box.lower, box.lower + size.cwiseProduct(Vec3(
-                                                                times[0], times[1], times[2]))});
+    return scene_in(std::move(all),
+                    {box.lower, box.lower + size.cwiseProduct(Vec3(times[0], times[1], times[2]))});
 }
 
 core::Scene part(const core::Scene& scene, const std::array<int, 3>& blocks) {

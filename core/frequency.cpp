@@ -29,12 +29,16 @@ std::vector<ContactSpring> contact_springs(const Simulation& simulation) {
             const auto [i, j] = std::pair(contacts[c].i, contacts[c].j);
             if (j >= 0) {
                 const Vec3 branch = s.position[j] - s.position[i];
-                const double kn = kernels::contact_stiffness(0.5 * (s.radius[i] + s.radius[j]),
-                                                             s.normal_stiffness[i],
-                                                             s.normal_stiffness[j]);
-                springs[c] = {i,           j,           branch.normalized(),
-                              kn,          friction ? scene.stiffness_ratio * kn : 0.0,
-                              s.radius[i], s.radius[j]};
+                const double kn =
+                    kernels::contact_stiffness(0.5 * (s.radius[i] + s.radius[j]),
+                                               s.normal_stiffness[i], s.normal_stiffness[j]);
+                springs[c] = {i,
+                              j,
+                              branch.normalized(),
+                              kn,
+                              friction ? scene.stiffness_ratio * kn : 0.0,
+                              s.radius[i],
+                              s.radius[j]};
                 continue;
             }
             const Wall& wall = scene.walls[static_cast<std::size_t>(-1 - j)];

@@ -36,8 +36,8 @@ class FrequencyEstimator {
     void start_vector();
     double lanczos_round(int iterations);
 
-    std::vector<ContactSpring> springs_;        // i, j: numbers of spheres that take part
-    std::vector<std::int32_t> sphere_;          // of each number
+    std::vector<ContactSpring> springs_;  // i, j: numbers of spheres that take part
+    std::vector<std::int32_t> sphere_;    // of each number
     std::vector<std::uint32_t> offsets_;
     std::vector<std::uint32_t> incidences_;  // 2 * spring + side
     std::vector<double> scale_;              // sqrt of inverse mass, inverse inertia: two a sphere

@@ -43,8 +43,7 @@ struct Grid {
         return a + n[0] * (b + n[1] * c);
     }
     std::int64_t index(const Vec3& place) const {
-        return index(coordinate(place.x(), 0), coordinate(place.y(), 1),
-                     coordinate(place.z(), 2));
+        return index(coordinate(place.x(), 0), coordinate(place.y(), 1), coordinate(place.z(), 2));
     }
 };
 

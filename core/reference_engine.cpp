@@ -123,8 +123,8 @@ double ReferenceEngine::unpaired_wall_motion() const {
             paired |= low == static_cast<int>(w) || high == static_cast<int>(w);
         }
         if (!paired)
-            motion = std::max(motion, std::abs(walls[w].normal.dot(walls[w].point -
-                                                                   contacts_.built_walls()[w])));
+            motion = std::max(
+                motion, std::abs(walls[w].normal.dot(walls[w].point - contacts_.built_walls()[w])));
     }
     return motion;
 }

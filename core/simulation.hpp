@@ -81,7 +81,7 @@ class Simulation {
     }
     /// The next force evaluation searches for neighbours anew; for tests, nothing needs it.
     void rebuild_lists() { engine_->invalidate_lists(); }
-    std::int64_t list_builds() const { return engine_->list_builds(); }  ///< so far [-]
+    std::int64_t list_builds() const { return engine_->list_builds(); }      ///< so far [-]
     std::int64_t neighbour_searches() const { return engine_->searches(); }  ///< so far [-]
     /// Candidates in the lists; those that the engine looks at twice count twice [-].
     std::int64_t candidates() const { return engine_->candidate_count(); }
@@ -105,7 +105,7 @@ class Simulation {
     void set_friction_angle(double angle);  ///< of all spheres [rad]
     void set_properties(std::span<const double> normal_stiffness,
                         std::span<const double> friction_angle);  ///< [Pa], [rad]
-    void scale_velocities(double factor);     ///< spins too [-]
+    void scale_velocities(double factor);                         ///< spins too [-]
     /// Adds velocity(x) [m/s] to that of every sphere, x its centre [m].
     template <class Field>
     void add_velocities(const Field& velocity) {

@@ -76,10 +76,11 @@ void Simulation::check_state() const {
     const ParticleStore& s = spheres();
     const double step = world_->old_step;
     const auto fail = [&](std::size_t i, const std::string& what) {
-        throw SimulationError(fmt::format("{} (sphere {}, step {}, time {:g} s, at ({:g}, {:g}, "
-                                          "{:g}) m)",
-                                          what, i, world_->steps, world_->time, s.position.x[i],
-                                          s.position.y[i], s.position.z[i]));
+        throw SimulationError(
+            fmt::format("{} (sphere {}, step {}, time {:g} s, at ({:g}, {:g}, "
+                        "{:g}) m)",
+                        what, i, world_->steps, world_->time, s.position.x[i], s.position.y[i],
+                        s.position.z[i]));
     };
     for (std::size_t i = 0; i < s.size(); ++i) {
         if (!s.position[i].allFinite() || !s.velocity[i].allFinite() || !s.spin[i].allFinite())

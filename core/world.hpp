@@ -21,10 +21,10 @@ struct World {
     SimulationOptions options;
 
     // What follows from the scene; refresh() keeps it.
-    Column<double> friction;                                 ///< tan(phi) [-]
-    Column<double> inertia_scale;                            ///< inertia over real mass [-]
-    Column<double> inverse_inertial_mass, inverse_inertia;   ///< [1/kg], [1/(kg m2)]
-    std::vector<kernels::PlaneWall> planes;                  ///< as the contacts see the walls
+    Column<double> friction;                                ///< tan(phi) [-]
+    Column<double> inertia_scale;                           ///< inertia over real mass [-]
+    Column<double> inverse_inertial_mass, inverse_inertia;  ///< [1/kg], [1/(kg m2)]
+    std::vector<kernels::PlaneWall> planes;                 ///< as the contacts see the walls
     bool has_friction = false, has_wall_friction = false;
     bool per_sphere = false;    ///< stiffness or friction differ from sphere to sphere
     double largest_radius = 0;  ///< [m]
@@ -32,7 +32,7 @@ struct World {
     // What the last force evaluation found.
     Vec3Column force, moment;  ///< resultants, gravity included; where Engine::pull brings them
     std::vector<kernels::WallLoad> wall_loads, last_wall_loads;
-    kernels::ContactSums contact_sums;  ///< where sums were asked for
+    kernels::ContactSums contact_sums;                              ///< where sums were asked for
     double friction_work = 0, damping_work = 0, external_work = 0;  ///< with the ledger [J]
 
     // The clock.

@@ -20,7 +20,8 @@ inline constexpr std::size_t stretches = 8;
 inline std::uint8_t stretch_of(double used) {
     // Truncation is rounding down: what overlaps already (used < 0) belongs to the first.
     const double stretch = used * static_cast<double>(stretches);
-    return stretch > 0 ? static_cast<std::uint8_t>(std::min(stretch, stretches - 1.0)) : std::uint8_t{0};
+    return stretch > 0 ? static_cast<std::uint8_t>(std::min(stretch, stretches - 1.0))
+                       : std::uint8_t{0};
 }
 
 /// What a candidate is made from.

@@ -59,7 +59,10 @@ void build_wall_lists(Domain<T>& domain, const BuiltState& state, std::span<cons
             const double room = state.reserve[slot] + state.wall_reserve;
             if (gap < -room) continue;
             const auto record = static_cast<std::int32_t>(k);  // own records never change
-            near.push_back({record, record, domain.idle(), stretch_of(-gap / room),
+            near.push_back({record,
+                            record,
+                            domain.idle(),
+                            stretch_of(-gap / room),
                             {{0, 0, 0}, static_cast<T>(gap)}});
         }
         if (near.empty()) continue;

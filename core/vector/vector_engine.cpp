@@ -111,8 +111,8 @@ void VectorEngine<T>::pull_resultants() {
     for (const Domain<T>& domain : domains_)
         for (std::size_t k = 0; k < domain.own; ++k) {
             const auto i = static_cast<std::size_t>(order_.sphere[domain.first + k]);
-            world_.force.set(i, vec3(domain.loads[k].force) +
-                                    world_.spheres().mass[i] * world_.scene.gravity);
+            world_.force.set(
+                i, vec3(domain.loads[k].force) + world_.spheres().mass[i] * world_.scene.gravity);
             world_.moment.set(i, vec3(domain.loads[k].moment));
         }
 }
@@ -125,8 +125,8 @@ double VectorEngine<T>::resultant_sum() {
     for (std::size_t d = 0; d < domains_.size(); ++d) {
         const Domain<T>& domain = domains_[d];
         for (std::size_t k = 0; k < domain.own; ++k)
-            partial[d] += (vec3(domain.loads[k].force) + double{domain.records[k].mass} * gravity)
-                              .norm();
+            partial[d] +=
+                (vec3(domain.loads[k].force) + double{domain.records[k].mass} * gravity).norm();
     }
     double sum = 0;
     for (double p : partial) sum += p;
@@ -213,7 +213,8 @@ void VectorEngine<T>::domain_forces(Domain<T>& domain, bool sums,
     parameters.counted = static_cast<std::int32_t>(domain.own);
     const std::size_t pairs =
         kernels::variant(kernels::ContactFeatures{world_.has_friction, world_.per_sphere, sums});
-    domain.pass = kernels_.pairs[pairs](domain.records.data(), domain.pairs.view(most_used_, scratch.touching),
+    domain.pass = kernels_.pairs[pairs](domain.records.data(),
+                                        domain.pairs.view(most_used_, scratch.touching),
                                         loads.data(), parameters);
     domain.wall_loads.assign(world_.planes.size(), {});
     const std::size_t variant = kernels::variant(
@@ -221,8 +222,8 @@ void VectorEngine<T>::domain_forces(Domain<T>& domain, bool sums,
     for (WallList<T>& list : domain.walls) {
         const auto w = static_cast<std::size_t>(list.wall);
         const kernels::PassResult result = kernels_.wall[variant](
-            domain.records.data(), wall_plane(w), list.list.view(most_used_, scratch.touching), loads.data(),
-            parameters, domain.wall_loads[w]);
+            domain.records.data(), wall_plane(w), list.list.view(most_used_, scratch.touching),
+            loads.data(), parameters, domain.wall_loads[w]);
         domain.pass.sums += result.sums;
         domain.pass.too_deep |= result.too_deep;
     }

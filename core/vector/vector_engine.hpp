@@ -86,21 +86,21 @@ class VectorEngine : public Engine {
     SpatialOrder order_;
     std::vector<std::int32_t> slot_of_;  // of each sphere
     std::vector<Domain<T>> domains_;
-    std::vector<Scratch<T>> scratch_;    // of each thread
+    std::vector<Scratch<T>> scratch_;  // of each thread
 
     BuiltState built_;
     struct {
-        Vec3Column position;     // centres at the last search, by slot [m]
-        Column<double> reserve;  // by slot [m]
+        Vec3Column position;      // centres at the last search, by slot [m]
+        Column<double> reserve;   // by slot [m]
         std::vector<Vec3> walls;  // their points [m]
     } searched_;
     Vec3 middle_ = Vec3::Zero(), sample_size_ = Vec3::Zero();  // of the spheres' centres [m]
     double smallest_radius_ = 0;                               // [m]
-    std::vector<Vec3> built_walls_;       // their points [m]
-    kernels::AffineMotion affine_;        // of the box, as the last motion foresaw it
-    double used_reserve_ = 0;             // largest share of a reserve that motion used [-]
-    double most_used_ = 0;                // of any reserve since the build [-]
-    double reach_per_reserve_ = 0;        // largest (radius + reserve)/reserve [-]
+    std::vector<Vec3> built_walls_;                            // their points [m]
+    kernels::AffineMotion affine_;  // of the box, as the last motion foresaw it
+    double used_reserve_ = 0;       // largest share of a reserve that motion used [-]
+    double most_used_ = 0;          // of any reserve since the build [-]
+    double reach_per_reserve_ = 0;  // largest (radius + reserve)/reserve [-]
     bool stale_ = true, suspicious_ = false;
     std::int64_t builds_ = 0, searches_ = 0;
 };

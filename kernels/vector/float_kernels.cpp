@@ -18,13 +18,17 @@ namespace grainfield::kernels {
 const VectorKernels<float>* float_kernels(InstructionSet isa) {
     switch (isa) {
 #if HWY_TARGETS & HWY_AVX3
-        case InstructionSet::avx512: return &N_AVX3::vector_kernels<float>();
+        case InstructionSet::avx512:
+            return &N_AVX3::vector_kernels<float>();
 #endif
 #if HWY_TARGETS & HWY_AVX2
-        case InstructionSet::avx2: return &N_AVX2::vector_kernels<float>();
+        case InstructionSet::avx2:
+            return &N_AVX2::vector_kernels<float>();
 #endif
-        case InstructionSet::scalar: return &HWY_STATIC_DISPATCH(vector_kernels<float>)();
-        default: return nullptr;
+        case InstructionSet::scalar:
+            return &HWY_STATIC_DISPATCH(vector_kernels<float>)();
+        default:
+            return nullptr;
     }
 }
 

@@ -108,8 +108,7 @@ HWY_INLINE void store4(Lane4<T> v, const std::array<T*, 1>& at, std::size_t offs
 template <class T>
 HWY_INLINE void add4(Lane4<T> v, const std::array<T*, 1>& at, std::size_t offset) {
     const Lane4<T> old = load4<T>({at[0]}, offset);
-    store4<T>({hn::Add(old.x, v.x), hn::Add(old.y, v.y), hn::Add(old.z, v.z),
-               hn::Add(old.w, v.w)},
+    store4<T>({hn::Add(old.x, v.x), hn::Add(old.y, v.y), hn::Add(old.z, v.z), hn::Add(old.w, v.w)},
               at, offset);
 }
 
@@ -158,7 +157,8 @@ HWY_INLINE Lane<T> join(const std::array<const T*, lanes<T>>& at, std::size_t fi
                         std::size_t offset) {
     constexpr std::size_t b = block_lanes<T>;
     const Block<T> d;
-    const auto block = [&](std::size_t q) HWY_ATTR { return hn::LoadU(d, at[first + q * b] + offset); };
+    const auto block = [&](std::size_t q)
+                           HWY_ATTR { return hn::LoadU(d, at[first + q * b] + offset); };
     if constexpr (blocks<T> == 1) {
         return block(0);
     } else if constexpr (blocks<T> == 2) {
@@ -265,9 +265,10 @@ HWY_INLINE RecordLanes<T> load_records(const SphereRecord<T>* records, const std
     std::array<const T*, lanes<T>> at;
     for (std::size_t l = 0; l < lanes<T>; ++l) at[l] = records[index[l]].u;
     if constexpr (sizeof(T) == 4) {
-        RecordLanes<T> r{{join<T>(at, 0, 0), join<T>(at, 1, 0), join<T>(at, 2, 0), join<T>(at, 3, 0)},
-                         {join<T>(at, 0, 4), join<T>(at, 1, 4), join<T>(at, 2, 4), join<T>(at, 3, 4)},
-                         {join<T>(at, 0, 8), join<T>(at, 1, 8), join<T>(at, 2, 8), join<T>(at, 3, 8)}};
+        RecordLanes<T> r{
+            {join<T>(at, 0, 0), join<T>(at, 1, 0), join<T>(at, 2, 0), join<T>(at, 3, 0)},
+            {join<T>(at, 0, 4), join<T>(at, 1, 4), join<T>(at, 2, 4), join<T>(at, 3, 4)},
+            {join<T>(at, 0, 8), join<T>(at, 1, 8), join<T>(at, 2, 8), join<T>(at, 3, 8)}};
         transpose(r.u.x, r.u.y, r.u.z, r.u.w);
         transpose(r.v.x, r.v.y, r.v.z, r.v.w);
         transpose(r.w.x, r.w.y, r.w.z, r.w.w);
@@ -290,7 +291,7 @@ HWY_INLINE void add_loads(SphereLoad<T>* loads, const std::int32_t* index, Lane3
                           Lane3<T> moment) {
     const Lane<T> one = set<T>(1), zero = hn::Zero(Tag<T>());
     Lane4<T> f{force.x, force.y, force.z, one}, m{moment.x, moment.y, moment.z, zero};
-    if constexpr (sizeof(T) == 4 && blocks<T> > 1) {
+    if constexpr (sizeof(T) == 4 && blocks < T >> 1) {
         // A load of eight floats at once: blocks of force and moment side by side.
         const hn::Full256<T> d;
         transpose(f.x, f.y, f.z, f.w);

@@ -56,11 +56,10 @@ template <class T>
 HWY_INLINE Lane3<T> swing(Lane3<T> tangent, Lane3<T> from, Lane3<T> to) {
     const Lane3<T> difference = from - to;
     // 1 + from.to = 2 - |from - to|^2/2
-    const auto inverse = hn::Mul(
-        set<T>(T(0.5)),
-        inverse_of_one_minus<T>(hn::Mul(set<T>(T(0.25)), dot(difference, difference))));
-    const Lane3<T> carried =
-        minus_scaled(tangent, hn::Mul(dot(tangent, to), inverse), from + to);
+    const auto inverse =
+        hn::Mul(set<T>(T(0.5)),
+                inverse_of_one_minus<T>(hn::Mul(set<T>(T(0.25)), dot(difference, difference))));
+    const Lane3<T> carried = minus_scaled(tangent, hn::Mul(dot(tangent, to), inverse), from + to);
     return tangential(carried, to);
 }
 
@@ -74,9 +73,9 @@ struct TangentialLanes {
 /// A touching pair of spheres.
 template <class T>
 struct PairLanes {
-    Lane3<T> branch;                ///< from a to b [m]
-    Lane<T> distance, overlap;      ///< [m]
-    Lane<T> reach;                  ///< sum of the radii [m]
+    Lane3<T> branch;            ///< from a to b [m]
+    Lane<T> distance, overlap;  ///< [m]
+    Lane<T> reach;              ///< sum of the radii [m]
     Lane<T> inverse_distance, inverse_reach;
     Lane3<T> normal;
 };
@@ -119,13 +118,12 @@ HWY_INLINE Approach<T> sphere_motion(const PairLanes<T>& pair, Lane<T> radius_a,
     result.gap_before = hn::Sub(hn::Neg(closing), pair.overlap);
 
     const Lane3<T> n0 = scaled(inverse_distance0, branch0);
-    const Lane3<T> rolling = scaled(
-        pair.inverse_reach, plus_scaled(scaled(radius_a, spin_a), radius_b, spin_b));
+    const Lane3<T> rolling =
+        scaled(pair.inverse_reach, plus_scaled(scaled(radius_a, spin_a), radius_b, spin_b));
     const Lane3<T> middle = n + n0, between = n - n0;
     // |n + n0|^2 = 4 - |n - n0|^2
     const auto inverse_middle2 = hn::Mul(
-        set<T>(T(0.25)),
-        inverse_of_one_minus<T>(hn::Mul(set<T>(T(0.25)), dot(between, between))));
+        set<T>(T(0.25)), inverse_of_one_minus<T>(hn::Mul(set<T>(T(0.25)), dot(between, between))));
     const Lane3<T> beyond = scaled(set<T>(T(0.5)), spin_a + spin_b) - rolling;
     const auto twist = hn::Mul(dot(beyond, middle), inverse_middle2);
     const Turn<T> frame(scaled(step, plus_scaled(rolling, twist, middle)));
@@ -169,13 +167,12 @@ HWY_INLINE ShearLanes<T> load_shear(const TangentialLanes<T>& motion, Lane<T> ga
     result.shear = scaled(hn::Min(set<T>(1), hn::Div(limit, size)), trial);
     if constexpr (Sums) {
         const auto sticks = hn::Gt(shear_stiffness, zero);
-        const auto inverse = hn::Div(set<T>(T(0.5)),
-                                     hn::IfThenElse(sticks, shear_stiffness, set<T>(1)));
-        result.elastic = hn::IfThenElseZero(
-            sticks, hn::Mul(inverse, dot(result.shear, result.shear)));
+        const auto inverse =
+            hn::Div(set<T>(T(0.5)), hn::IfThenElse(sticks, shear_stiffness, set<T>(1)));
+        result.elastic =
+            hn::IfThenElseZero(sticks, hn::Mul(inverse, dot(result.shear, result.shear)));
         result.slipped = hn::IfThenElseZero(
-            sticks,
-            hn::Mul(inverse, dot(motion.turned + result.shear, trial - result.shear)));
+            sticks, hn::Mul(inverse, dot(motion.turned + result.shear, trial - result.shear)));
     } else {
         result.elastic = result.slipped = zero;
     }

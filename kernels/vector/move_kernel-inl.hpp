@@ -29,8 +29,8 @@ struct Kick {
         if constexpr (Damping) {
             half_old = hn::Mul(set<T>(T(0.5) * p.old_step), inverse_mass);
             // Padding has no mass.
-            const auto safe = hn::IfThenElse(hn::Gt(half_old, hn::Zero(Tag<T>())), half_old,
-                                             set<T>(1));
+            const auto safe =
+                hn::IfThenElse(hn::Gt(half_old, hn::Zero(Tag<T>())), half_old, set<T>(1));
             inverse_half = hn::Div(set<T>(1), safe);
         }
     }

@@ -28,8 +28,8 @@ std::size_t find_near(const PointColumns& points, std::size_t begin, std::size_t
         const auto near = hn::Lt(distance2, hn::Mul(reach, reach));
         alignas(8) std::uint8_t bytes[8] = {};
         hn::StoreMaskBits(d, near, bytes);
-        std::uint32_t bits = static_cast<std::uint32_t>(bytes[0]) |
-                             static_cast<std::uint32_t>(bytes[1]) << 8;
+        std::uint32_t bits =
+            static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
         if (end - m < n) bits &= (1u << (end - m)) - 1u;
         for (; bits != 0; bits &= bits - 1)
             found[count++] = static_cast<std::int32_t>(m) + __builtin_ctz(bits);

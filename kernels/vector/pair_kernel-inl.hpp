@@ -99,9 +99,9 @@ HWY_INLINE void approach_batch(const PairCall<T>& call, Lane4<T> separation, Pai
 /// Second stage: how the spheres moved past each other.
 template <class T>
 HWY_INLINE void motion_batch(const PairCall<T>& call, PairBatch<T>& batch) {
-    batch.approach = sphere_motion<T>(batch.pair, batch.radius_a, batch.radius_b, batch.velocity,
-                                      batch.spin_a, batch.spin_b, batch.shear,
-                                      set<T>(call.parameters.step));
+    batch.approach =
+        sphere_motion<T>(batch.pair, batch.radius_a, batch.radius_b, batch.velocity, batch.spin_a,
+                         batch.spin_b, batch.shear, set<T>(call.parameters.step));
 }
 
 /// Third stage: forces. Of pairs that do not touch they are zero, and their history is gone.
@@ -124,10 +124,10 @@ HWY_INLINE void force_batch(const PairCall<T>& call, PairBatch<T>& batch, Contac
             sums.contacts += counted[l] > 0 ? batch.touching >> l & 1u : 0u;
     }
     if constexpr (Friction) {
-        const ShearLanes<T> spring = load_shear<T, Sums>(
-            batch.approach.motion, batch.approach.gap_before, pair.overlap,
-            hn::Mul(set<T>(call.parameters.stiffness_ratio), batch.kn),
-            hn::Mul(batch.friction, fn));
+        const ShearLanes<T> spring =
+            load_shear<T, Sums>(batch.approach.motion, batch.approach.gap_before, pair.overlap,
+                                hn::Mul(set<T>(call.parameters.stiffness_ratio), batch.kn),
+                                hn::Mul(batch.friction, fn));
         batch.shear = spring.shear;
         // The force on the centres does the work of the spring, whose lever arms are the radii.
         batch.force =
@@ -186,8 +186,7 @@ HWY_INLINE void close_forces(const PairCall<T>& call, LaneMask<T>& too_deep, Pas
         if constexpr (Friction)
             for (std::size_t q = 0; q < count; ++q) {
                 const Lane3<T>& shear = batches[q].shear;
-                store_rows<T>({shear.x, shear.y, shear.z, zero},
-                              c.history[first + q * n].shear);
+                store_rows<T>({shear.x, shear.y, shear.z, zero}, c.history[first + q * n].shear);
             }
     }
 }
@@ -212,8 +211,7 @@ HWY_INLINE std::size_t find_touching(const PairCall<T>& call) {
             now |= bits_of<T>(hn::Lt(growth2<T>(built.xyz(), ub.xyz() - ua.xyz()), room)) << part;
         }
         for (std::uint32_t left = now | c.touching[word]; left != 0; left &= left - 1)
-            c.scratch[found++] =
-                static_cast<std::int32_t>(word * most_lanes) + __builtin_ctz(left);
+            c.scratch[found++] = static_cast<std::int32_t>(word * most_lanes) + __builtin_ctz(left);
         c.touching[word] = static_cast<std::uint16_t>(now);
     }
     return found;
@@ -226,8 +224,7 @@ HWY_INLINE void picked_forces(const PairCall<T>& call, LaneMask<T>& too_deep, Pa
     const Candidates<T>& c = call.candidates;
     const std::size_t picked = find_touching<T>(call);
     result.contacts += static_cast<std::int64_t>(picked);
-    for (std::size_t l = 0; l < n; ++l)
-        c.scratch[picked + l] = static_cast<std::int32_t>(c.idle);
+    for (std::size_t l = 0; l < n; ++l) c.scratch[picked + l] = static_cast<std::int32_t>(c.idle);
     for (std::size_t k = 0; k < picked; k += n) {
         std::array<std::int32_t, n> a, b;
         std::array<const T*, n> separation, history;
@@ -246,8 +243,8 @@ HWY_INLINE void picked_forces(const PairCall<T>& call, LaneMask<T>& too_deep, Pa
         approach_batch<T, Friction, PerSphere>(call, load4<T>(separation, 0), batch, too_deep);
         finish_batches<T, Friction, Sums>(call, &batch, 1, result.sums);
         if constexpr (Friction)
-            store4<T>({batch.shear.x, batch.shear.y, batch.shear.z, hn::Zero(Tag<T>())},
-                      history_to, 0);
+            store4<T>({batch.shear.x, batch.shear.y, batch.shear.z, hn::Zero(Tag<T>())}, history_to,
+                      0);
     }
 }
 

@@ -105,13 +105,13 @@ struct WallPlane {
 
 template <class T>
 struct MoveParameters {
-    T gravity[3];         ///< [m/s2]
-    T force_damping;      ///< alpha [-]
-    T moment_damping;     ///< alpha [-]
-    T old_step;           ///< h_old [s]
-    T new_step;           ///< h_new [s]
-    T affine_shift[3];    ///< of the box since the lists were built, at the end of the step [m]
-    T affine_scale[3];    ///< [-]
+    T gravity[3];       ///< [m/s2]
+    T force_damping;    ///< alpha [-]
+    T moment_damping;   ///< alpha [-]
+    T old_step;         ///< h_old [s]
+    T new_step;         ///< h_new [s]
+    T affine_shift[3];  ///< of the box since the lists were built, at the end of the step [m]
+    T affine_scale[3];  ///< [-]
 };
 
 struct MoveResult {

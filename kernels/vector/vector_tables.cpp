@@ -6,17 +6,23 @@ namespace grainfield::kernels {
 
 const char* name(InstructionSet isa) {
     switch (isa) {
-        case InstructionSet::avx2: return "avx2";
-        case InstructionSet::avx512: return "avx512";
-        default: return "scalar";
+        case InstructionSet::avx2:
+            return "avx2";
+        case InstructionSet::avx512:
+            return "avx512";
+        default:
+            return "scalar";
     }
 }
 
 bool runs_here(InstructionSet isa) {
     switch (isa) {
-        case InstructionSet::avx2: return (hwy::SupportedTargets() & HWY_AVX2) != 0;
-        case InstructionSet::avx512: return (hwy::SupportedTargets() & HWY_AVX3) != 0;
-        default: return true;
+        case InstructionSet::avx2:
+            return (hwy::SupportedTargets() & HWY_AVX2) != 0;
+        case InstructionSet::avx512:
+            return (hwy::SupportedTargets() & HWY_AVX3) != 0;
+        default:
+            return true;
     }
 }
 

@@ -60,24 +60,21 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
             too_deep = hn::Or(too_deep, hn::Gt(overlap, hn::Mul(half, u.w)));
             const auto w = load4<T>(at, 8), v = load4<T>(at, 4);
             const auto k_sphere = PerSphere ? w.w : set<T>(p.uniform_stiffness);
-            const auto kn = hn::IfThenElseZero(
-                touching, contact_stiffness<T>(u.w, k_sphere, k_wall));
+            const auto kn =
+                hn::IfThenElseZero(touching, contact_stiffness<T>(u.w, k_sphere, k_wall));
             const auto fn = hn::Mul(kn, overlap);
             Lane3<T> force = scaled(fn, normal);
             if constexpr (Friction) {
                 const Lane3<T> velocity = wall_velocity - v.xyz();
-                const TangentialLanes<T> motion =
-                    plane_motion<T>(outward, u.w, velocity, w.xyz(), load4<T>(history, 0).xyz(),
-                                    step);
-                const auto gap_before =
-                    hn::MulSub(step, dot(velocity, normal), overlap);
+                const TangentialLanes<T> motion = plane_motion<T>(outward, u.w, velocity, w.xyz(),
+                                                                  load4<T>(history, 0).xyz(), step);
+                const auto gap_before = hn::MulSub(step, dot(velocity, normal), overlap);
                 const auto ks_sphere = hn::Mul(set<T>(p.stiffness_ratio), k_sphere);
-                const auto ks =
-                    springs ? contact_stiffness<T>(u.w, ks_sphere, ks_wall) : zero;
-                const auto friction = hn::Min(
-                    PerSphere ? v.w : set<T>(p.uniform_friction), set<T>(wall.friction));
-                const ShearLanes<T> spring = load_shear<T, Sums>(motion, gap_before, overlap, ks,
-                                                                 hn::Mul(friction, fn));
+                const auto ks = springs ? contact_stiffness<T>(u.w, ks_sphere, ks_wall) : zero;
+                const auto friction =
+                    hn::Min(PerSphere ? v.w : set<T>(p.uniform_friction), set<T>(wall.friction));
+                const ShearLanes<T> spring =
+                    load_shear<T, Sums>(motion, gap_before, overlap, ks, hn::Mul(friction, fn));
                 store4<T>({hn::IfThenElseZero(touching, spring.shear.x),
                            hn::IfThenElseZero(touching, spring.shear.y),
                            hn::IfThenElseZero(touching, spring.shear.z), zero},

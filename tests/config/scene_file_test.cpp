@@ -32,7 +32,7 @@ TEST_F(Scene, DefaultsAreUndampedWeightlessAndWithoutWalls) {
     EXPECT_EQ(scene.particle.friction_angle, 0.6);
     EXPECT_EQ(scene.damping.force, 0);
     EXPECT_EQ(scene.damping.moment, 0);
-    EXPECT_EQ(scene.solver.precision, core::Precision::mixed);
+    EXPECT_EQ(scene.solver.precision, core::Precision::double_);
     EXPECT_EQ(scene.solver.isa, core::Isa::automatic);
     EXPECT_TRUE(scene.walls.empty());
     EXPECT_EQ(scene.output_interval, 0.01 / 100);

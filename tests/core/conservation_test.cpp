@@ -115,7 +115,8 @@ TEST_P(Conservation, SpinsNeverChangeWithoutFriction) {
             most = std::max(most, sim.touching_contacts());
         }
         EXPECT_GT(most, 0);
-        for (std::size_t i = 0; i < balls.size(); ++i) ASSERT_EQ(sim.spheres().spin[i], as_kept(balls[i].w));
+        for (std::size_t i = 0; i < balls.size(); ++i)
+            ASSERT_EQ(sim.spheres().spin[i], as_kept(balls[i].w));
     }
 }
 

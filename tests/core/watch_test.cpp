@@ -35,9 +35,8 @@ using Watch = KernelTest;
 
 /// Adds a velocity to one sphere [m/s].
 void push(Simulation& sim, std::size_t sphere, const Vec3& velocity) {
-    sim.add_velocities([&](std::size_t i, const Vec3&) {
-        return i == sphere ? velocity : Vec3(Vec3::Zero());
-    });
+    sim.add_velocities(
+        [&](std::size_t i, const Vec3&) { return i == sphere ? velocity : Vec3(Vec3::Zero()); });
 }
 
 /// Runs until it fails; the message must name the sphere. Returns it.

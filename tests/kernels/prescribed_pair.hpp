@@ -92,9 +92,8 @@ class VectorPair : public PairRunner {
             }
         for (int k = 0; k < 3; ++k) history_[0].shear[k] = static_cast<T>(s.shear[k]);
         loads_.assign(3, {});
-        const PairParameters<T> p{static_cast<T>(pair_stiffness_ratio),
-                                  static_cast<T>(s.stiffness), static_cast<T>(s.friction),
-                                  static_cast<T>(s.step), 2};
+        const PairParameters<T> p{static_cast<T>(pair_stiffness_ratio), static_cast<T>(s.stiffness),
+                                  static_cast<T>(s.friction), static_cast<T>(s.step), 2};
         kernels_.pairs[variant(ContactFeatures{true, false, true})](
             records_.data(),
             {most_lanes, most_lanes, most_lanes - 1, a_.data(), b_.data(), separation_.data(),

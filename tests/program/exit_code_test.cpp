@@ -158,7 +158,8 @@ TEST(Usage, HelpAndVersionEndWithZero) {
     const Outcome help = place.run({"--help"});
     EXPECT_EQ(help.code, 0);
     EXPECT_THAT(help.out, HasSubstr("Example"));
-    for (const char* command : {"pack", "field", "triaxial", "report", "simulate", "convert", "info"}) {
+    for (const char* command :
+         {"pack", "field", "triaxial", "report", "simulate", "convert", "info"}) {
         EXPECT_THAT(help.out, HasSubstr(command));
         const Outcome one = place.run({command, "--help"});
         EXPECT_EQ(one.code, 0);

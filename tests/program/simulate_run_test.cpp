@@ -60,16 +60,16 @@ TEST(SimulateRun, SummaryIsComplete) {
     EXPECT_EQ(s.at("contacts"), contacts.rows.size());
 }
 
-/// Every instruction set and precision by name: the one asked for runs, or the message says why not.
+/// Every instruction set and precision by name: the one asked for runs, or the message says why
+/// not.
 TEST(SimulateRun, AForcedInstructionSetRunsOrIsRefused) {
     for (const kernels::InstructionSet isa : kernels::instruction_sets)
         for (const std::string precision : {"double", "mixed"}) {
             const std::string name = kernels::name(isa);
             const Workplace place;
             const std::string scene = head + "[time]\nstep = 1e-5\nend = 1e-3\n" + floor_wall;
-            const Outcome run =
-                place.simulate(lattice(3), scene,
-                               {"--isa", name, "--set", "solver.precision=" + precision});
+            const Outcome run = place.simulate(
+                lattice(3), scene, {"--isa", name, "--set", "solver.precision=" + precision});
             if (!kernels::runs_here(isa)) {
                 EXPECT_EQ(run.code, 2);
                 EXPECT_THAT(run.err, HasSubstr("solver.isa = \"" + name + "\""));

@@ -59,9 +59,9 @@ Sample sample_from_file(const Arguments& arguments, const Config& config, const 
 
 Sample sample_from_nothing(const Config& config, const fs::path& out, core::Monitor& monitor) {
     const auto start = std::chrono::steady_clock::now();
-    const packing::Packing packed = packing::pack(config.packing, config.grading,
-                                                  packing_material(config), config.time, monitor,
-                                                  config.solver);
+    const packing::Packing packed =
+        packing::pack(config.packing, config.grading, packing_material(config), config.time,
+                      monitor, config.solver);
     write_packing(out / "packing.h5", packed, seconds_since(start));
     return {packed.spheres, packed.box};
 }

@@ -116,8 +116,7 @@ void write_state(const std::filesystem::path& path, const core::Simulation& simu
     // Touching contacts: i, j (or -1 - wall) and the shear force on i.
     core::ExtraArray contacts;
     for (const core::TouchingContact& c : simulation.touching())
-        for (double value :
-             {double(c.i), double(c.j), c.shear.x(), c.shear.y(), c.shear.z()})
+        for (double value : {double(c.i), double(c.j), c.shear.x(), c.shear.y(), c.shear.z()})
             contacts.values.push_back(value);
     contacts.shape = {contacts.values.size() / 5, 5};
     if (!contacts.values.empty()) file.extra["contacts"] = std::move(contacts);
