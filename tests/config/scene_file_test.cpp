@@ -51,7 +51,7 @@ friction_angle = 0.1
 force = 0.3
 moment = 0.4
 [solver]
-precision = "double"
+precision = "mixed"
 isa = "avx512"
 [time]
 step = 1e-6
@@ -81,7 +81,7 @@ interval = 1e-5
     EXPECT_EQ(scene.particle.friction_angle, 0.1);
     EXPECT_EQ(scene.damping.force, 0.3);
     EXPECT_EQ(scene.damping.moment, 0.4);
-    EXPECT_EQ(scene.solver.precision, core::Precision::double_);
+    EXPECT_EQ(scene.solver.precision, core::Precision::mixed);
     EXPECT_EQ(scene.solver.isa, core::Isa::avx512);
     EXPECT_EQ(scene.step, 1e-6);
     EXPECT_EQ(scene.safety, 0.5);
