@@ -18,7 +18,7 @@ struct LineAllocator {
     T* allocate(std::size_t n) {
         return static_cast<T*>(::operator new (n * sizeof(T), alignment));
     }
-    void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{64}); }
+    void deallocate(T* p, std::size_t) { ::operator delete(p, alignment); }
     bool operator==(const LineAllocator&) const { return true; }
 };
 
