@@ -40,8 +40,9 @@ TEST(Pack, SettledSampleFollowsItsWeightOnAnyNumberOfThreads) {
     // and 0.99 are those of the full sample.
     EXPECT_NEAR(p.profile.slope_ratio, 1, 0.05);
     EXPECT_GT(p.profile.r2, 0.99);
-    EXPECT_GT(p.profile.K0, 0.2);
-    EXPECT_LT(p.profile.K0, 1);
+    // A sample without friction, one block of 65 spheres: over ten seeds and instruction sets K0 is
+    // 0.83 with a standard deviation of 0.13, so one sample may well be above 1. Four deviations.
+    EXPECT_NEAR(p.profile.K0, 0.83, 4 * 0.13);
     const double solid = p.spheres.solid_volume();
     EXPECT_NEAR(p.profile.unit_weight, 2600 * 9.81 * solid / p.box.volume(),
                 1e-9 * p.profile.unit_weight);
