@@ -29,6 +29,9 @@ struct Grid {
     // Centres relative to the origin, and radii, in the order of `spheres` [m]. Single precision:
     // the search only proposes pairs, with room for round-off; each is then checked in double.
     std::vector<float> x, y, z, radius;
+    // The same as they are, for that check.
+    Vec3Column centre;
+    Column<double> exact_radius;
 
     kernels::PointColumns points() const { return {x.data(), y.data(), z.data(), radius.data()}; }
 
@@ -41,6 +44,10 @@ struct Grid {
     }
     std::int64_t index(std::int64_t a, std::int64_t b, std::int64_t c) const {
         return a + n[0] * (b + n[1] * c);
+    }
+    /// First of a cell's spheres; a may be one past the last cell of a row.
+    std::size_t begin(std::int64_t a, std::int64_t b, std::int64_t c) const {
+        return first[static_cast<std::size_t>(index(a, b, c))];
     }
     std::int64_t index(const Vec3& place) const {
         return index(coordinate(place.x(), 0), coordinate(place.y(), 1), coordinate(place.z(), 2));
@@ -75,13 +82,17 @@ Grid make_grid(const std::vector<std::int32_t>& members, const Vec3Column& x,
     for (std::size_t m = 0; m < members.size(); ++m) grid.spheres[next[cell_of[m]]++] = members[m];
     for (auto* column : {&grid.x, &grid.y, &grid.z, &grid.radius})
         column->resize(members.size() + kernels::most_lanes);
+    grid.centre.resize(members.size());
+    grid.exact_radius.resize(members.size());
     for_chunks(members.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
         for (std::size_t m = begin; m < end; ++m) {
-            const Vec3 u = x[grid.spheres[m]] - grid.origin;
+            grid.centre.set(m, x[grid.spheres[m]]);
+            grid.exact_radius[m] = radius[grid.spheres[m]];
+            const Vec3 u = grid.centre[m] - grid.origin;
             grid.x[m] = static_cast<float>(u.x());
             grid.y[m] = static_cast<float>(u.y());
             grid.z[m] = static_cast<float>(u.z());
-            grid.radius[m] = static_cast<float>(radius[grid.spheres[m]]);
+            grid.radius[m] = static_cast<float>(grid.exact_radius[m]);
         }
     });
     return grid;
@@ -133,46 +144,58 @@ std::vector<kernels::Pair> find_pairs(const Vec3Column& x, const Column<double>&
         16.0 * std::numeric_limits<float>::epsilon() * (box.size().maxCoeff() + *largest);
     const auto margin = static_cast<float>(skin + fuzz);
 
-    // A pair is found from its smaller level; within a level from its smaller index.
-    std::vector<std::vector<kernels::Pair>> found(chunk_count(n));
-    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t chunk) {
-        auto& pairs = found[chunk];
+    // A pair is found from its smaller level; within a level from the earlier in the grid.
+    struct Piece {
+        std::size_t level, begin, end;  // of the level's grid
+    };
+    std::vector<Piece> pieces;
+    for (std::size_t level = 0; level < grids.size(); ++level)
+        for (std::size_t m = 0; m < grids[level].spheres.size(); m += chunk_size)
+            pieces.push_back({level, m, std::min(grids[level].spheres.size(), m + chunk_size)});
+    std::vector<std::vector<kernels::Pair>> found(pieces.size());
+    tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t p) {
+        auto& pairs = found[p];
         std::vector<std::int32_t> near;
-        const std::size_t end = std::min(n, (chunk + 1) * chunk_size);
-        for (std::size_t i = chunk * chunk_size; i < end; ++i) {
-            const Vec3 xi = x[i];
-            const std::size_t own = level_of(radius[i], *smallest);
+        const auto [own, piece_begin, piece_end] = pieces[p];
+        for (std::size_t m = piece_begin; m < piece_end; ++m) {
+            const std::int32_t i = grids[own].spheres[m];
+            const Vec3 xi = grids[own].centre[m];
+            const double ri = grids[own].exact_radius[m];
+            const auto take = [&](const Grid& grid, std::size_t begin, std::size_t end) {
+                const Eigen::Vector3f here = (xi - grid.origin).cast<float>();
+                if (near.size() < end - begin + kernels::most_lanes)
+                    near.resize(end - begin + kernels::most_lanes);
+                const std::size_t count =
+                    kernels::find_near(grid.points(), begin, end, here.x(), here.y(), here.z(),
+                                       static_cast<float>(ri), margin, near.data());
+                for (std::size_t k = 0; k < count; ++k) {
+                    const auto other = static_cast<std::size_t>(near[k]);
+                    const double reach = ri + grid.exact_radius[other] + skin;
+                    if (!((grid.centre[other] - xi).squaredNorm() < reach * reach)) continue;
+                    const std::int32_t j = grid.spheres[other];
+                    pairs.push_back({std::min(i, j), std::max(i, j)});
+                }
+            };
             for (std::size_t level = own; level < grids.size(); ++level) {
                 const Grid& grid = grids[level];
                 if (grid.spheres.empty()) continue;
-                const double range = radius[i] + grid.max_radius + skin;
-                const Eigen::Vector3f here = (xi - grid.origin).cast<float>();
-                std::array<std::int64_t, 3> lo{}, hi{};
+                const double range = ri + grid.max_radius + skin;
+                std::array<std::int64_t, 3> at{}, lo{}, hi{};
                 for (int a = 0; a < 3; ++a) {
-                    lo[static_cast<std::size_t>(a)] = grid.coordinate(xi[a] - range, a);
-                    hi[static_cast<std::size_t>(a)] = grid.coordinate(xi[a] + range, a);
+                    const auto axis = static_cast<std::size_t>(a);
+                    at[axis] = grid.coordinate(xi[a], a);
+                    lo[axis] = grid.coordinate(xi[a] - range, a);
+                    hi[axis] = grid.coordinate(xi[a] + range, a);
                 }
-                for (std::int64_t c = lo[2]; c <= hi[2]; ++c)
-                    for (std::int64_t b = lo[1]; b <= hi[1]; ++b) {
+                for (std::int64_t c = level == own ? at[2] : lo[2]; c <= hi[2]; ++c) {
+                    const bool own_layer = level == own && c == at[2];
+                    for (std::int64_t b = own_layer ? at[1] : lo[1]; b <= hi[1]; ++b) {
                         // Cells along x are contiguous in memory: one run for all of them.
-                        const std::size_t begin =
-                            grid.first[static_cast<std::size_t>(grid.index(lo[0], b, c))];
-                        const std::size_t stop =
-                            grid.first[static_cast<std::size_t>(grid.index(hi[0], b, c)) + 1];
-                        if (near.size() < stop - begin + kernels::most_lanes)
-                            near.resize(stop - begin + kernels::most_lanes);
-                        const std::size_t count = kernels::find_near(
-                            grid.points(), begin, stop, here.x(), here.y(), here.z(),
-                            static_cast<float>(radius[i]), margin, near.data());
-                        for (std::size_t k = 0; k < count; ++k) {
-                            const auto j = static_cast<std::size_t>(grid.spheres[near[k]]);
-                            if (level == own && j <= i) continue;
-                            const double reach = radius[i] + radius[j] + skin;
-                            if ((x[j] - xi).squaredNorm() < reach * reach)
-                                pairs.push_back({static_cast<std::int32_t>(std::min(i, j)),
-                                                 static_cast<std::int32_t>(std::max(i, j))});
-                        }
+                        const bool own_row = own_layer && b == at[1];
+                        take(grid, own_row ? m + 1 : grid.begin(lo[0], b, c),
+                             grid.begin(hi[0] + 1, b, c));
                     }
+                }
             }
         }
     });

@@ -4,56 +4,72 @@
 #include <numeric>
 
 namespace grainfield::core {
+namespace {
 
-/// Touching contacts, ascending by source.
+/// Records that are idle have a radius of 1: two that are so far apart never touch.
 template <class T>
-std::vector<typename CandidateList<T>::Kept> CandidateList<T>::touching_contacts() const {
-    std::vector<Kept> found;
-    std::size_t first_stretch = 0;
-    for (std::size_t k = 0; k < count(); ++k) {
-        if (!touches(k) || source[k] < 0) continue;
-        found.push_back({source[k], history[k]});
-        first_stretch += k < begin[1];
+constexpr kernels::BuiltSeparation<T> far_apart{{4, 0, 0}, -2};
+
+}  // namespace
+
+template <class T>
+void Proposals<T>::resize(std::size_t n, std::int32_t idle) {
+    count = n;
+    const std::size_t size = kernels::padded(n);
+    for (auto* column : {&a, &b}) column->resize(size);
+    separation.resize(size);
+    stretch.resize(size);
+    for (std::size_t k = n; k < size; ++k) {
+        a[k] = b[k] = idle;
+        separation[k] = far_apart<T>;
     }
-    // Those of the first stretch, nearly all, ascend as they are, unless they were renumbered.
-    const auto less = [](const Kept& x, const Kept& y) { return x.source < y.source; };
-    const auto later = found.begin() + static_cast<std::ptrdiff_t>(first_stretch);
-    if (!std::is_sorted(found.begin(), later, less)) std::sort(found.begin(), later, less);
-    std::sort(later, found.end(), less);
-    std::inplace_merge(found.begin(), later, found.end(), less);
-    return found;
 }
 
 template <class T>
-void CandidateList<T>::build(std::span<const Candidate<T>> candidates, std::int32_t idle) {
-    const std::vector<Kept> kept = touching_contacts();
-    begin.fill(0);
-    for (const Candidate<T>& c : candidates) ++begin[c.stretch + 1u];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    std::array<std::size_t, stretches> next{};
-    std::copy_n(begin.begin(), stretches, next.begin());
+void CandidateList<T>::renumber(std::span<const std::int32_t> number) {
+    for (std::size_t k = 0; k < count(); ++k)
+        if (source[k] >= 0) source[k] = number[static_cast<std::size_t>(source[k])];
+}
+
+template <class T>
+void CandidateList<T>::build(const Proposals<T>& proposals, std::int32_t idle,
+                             CarriedHistory<T>& carried) {
+    carried.touched.assign(proposals.count, 0);
+    carried.history.assign(proposals.count, {});
+    for (std::size_t k = 0; k < count(); ++k) {
+        if (source[k] < 0) continue;
+        const auto p = static_cast<std::size_t>(source[k]);
+        carried.history[p] = history[k];
+        carried.touched[p] = touches(k);
+    }
+    // Counting sort by stretch; no branches, which nobody could foresee. Those that are no
+    // candidates come last and are dropped.
+    std::array<std::size_t, kernels::stretches + 2> first{};
+    for (std::size_t p = 0; p < proposals.count; ++p) ++first[proposals.stretch[p] + 1u];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::copy_n(first.begin(), begin.size(), begin.begin());
+    source.resize(proposals.count);
+    for (std::size_t p = 0; p < proposals.count; ++p)
+        source[first[proposals.stretch[p]]++] = static_cast<std::int32_t>(p);
+    source.resize(count());
     // The last entry is always padding.
     const std::size_t size = kernels::padded(count() + 1);
     for (auto* column : {&a, &b}) column->resize(size);
     separation.resize(size);
-    source.resize(count());
-    history.assign(size, {});
+    history.resize(size);
     touching.assign(size / kernels::most_lanes, 0);
-    auto old = kept.begin();
-    for (const Candidate<T>& c : candidates) {
-        const std::size_t k = next[c.stretch]++;
-        a[k] = c.a;
-        b[k] = c.b;
-        separation[k] = c.separation;
-        source[k] = c.source;
-        while (old != kept.end() && old->source < c.source) ++old;
-        if (old == kept.end() || old->source != c.source) continue;
-        history[k] = old->history;
-        set_touching(k);
+    for (std::size_t k = 0; k < count(); ++k) {
+        const auto p = static_cast<std::size_t>(source[k]);
+        a[k] = proposals.a[p];
+        b[k] = proposals.b[p];
+        separation[k] = proposals.separation[p];
+        history[k] = carried.history[p];
+        if (carried.touched[p] != 0) set_touching(k);
     }
     for (std::size_t k = count(); k < size; ++k) {
         a[k] = b[k] = idle;
-        separation[k] = {{4, 0, 0}, -2};  // records that are idle have a radius of 1
+        separation[k] = far_apart<T>;
+        history[k] = {};
     }
 }
 
@@ -69,6 +85,8 @@ kernels::Candidates<T> CandidateList<T>::view(double used, Aligned<std::int32_t>
             scratch.data()};
 }
 
+template struct Proposals<float>;
+template struct Proposals<double>;
 template struct CandidateList<float>;
 template struct CandidateList<double>;
 

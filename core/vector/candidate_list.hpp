@@ -11,26 +11,32 @@
 
 namespace grainfield::core {
 
-/// Candidates are sorted by how much of their reserves two bodies must use up before they can
-/// meet: in the first stretch are those that may touch at once, the last may be left alone for
-/// long. A step looks at the stretches that the motion since the build has brought into play.
-inline constexpr std::size_t stretches = 8;
-
-/// Stretch of a candidate that touches once the share `used` of its reserves is used up [-].
+/// Stretch (kernels::stretches) of a candidate that touches once the share `used` of its reserves
+/// is used up [-].
 inline std::uint8_t stretch_of(double used) {
     // Truncation is rounding down: what overlaps already (used < 0) belongs to the first.
-    const double stretch = used * static_cast<double>(stretches);
-    return stretch > 0 ? static_cast<std::uint8_t>(std::min(stretch, stretches - 1.0))
+    const double stretch = used * static_cast<double>(kernels::stretches);
+    return stretch > 0 ? static_cast<std::uint8_t>(std::min(stretch, kernels::stretches - 1.0))
                        : std::uint8_t{0};
 }
 
-/// What a candidate is made from.
+/// Pairs that a candidate list is chosen from, in an order that lasts from one build to the next.
 template <class T>
-struct Candidate {
-    std::int32_t source;  ///< what tells it from others of the list; ascending
-    std::int32_t a, b;    ///< records
-    std::uint8_t stretch;
-    kernels::BuiltSeparation<T> separation;
+struct Proposals {
+    Aligned<std::int32_t> a, b;  ///< records
+    Aligned<kernels::BuiltSeparation<T>> separation;
+    Aligned<std::uint8_t> stretch;  ///< kernels::stretches if it is no candidate
+    std::size_t count = 0;          ///< without padding
+
+    /// Makes room for `n` pairs, in no particular state, and padding: pairs of the record `idle`.
+    void resize(std::size_t n, std::int32_t idle);
+};
+
+/// Histories on their way from one list to the next, by proposal.
+template <class T>
+struct CarriedHistory {
+    std::vector<kernels::ContactHistory<T>> history;
+    std::vector<std::uint8_t> touched;
 };
 
 template <class T>
@@ -39,8 +45,8 @@ struct CandidateList {
     Aligned<kernels::BuiltSeparation<T>> separation;
     Aligned<kernels::ContactHistory<T>> history;
     Aligned<std::uint16_t> touching;
-    std::vector<std::int32_t> source;
-    std::array<std::size_t, stretches + 1> begin{};  ///< of each stretch, and the end of the last
+    std::vector<std::int32_t> source;  ///< proposal that a candidate was made from; negative: gone
+    std::array<std::size_t, kernels::stretches + 1> begin{};  ///< of each stretch, and the end
 
     std::size_t count() const { return begin.back(); }  ///< without padding
     bool touches(std::size_t k) const {
@@ -50,25 +56,14 @@ struct CandidateList {
         touching[k / kernels::most_lanes] |=
             static_cast<std::uint16_t>(1u << (k % kernels::most_lanes));
     }
-    /// Replaces the list. A contact that touched keeps its history if a candidate has its source;
-    /// padding gets the record `idle`.
-    void build(std::span<const Candidate<T>> candidates, std::int32_t idle);
-    /// Gives candidates other sources, e.g. where neighbours are numbered anew: that of candidate k
-    /// becomes renumber(k), negative if it is gone.
-    template <class Renumber>
-    void renumber(const Renumber& renumber) {
-        for (std::size_t k = 0; k < count(); ++k) source[k] = renumber(k);
-    }
+    /// Replaces the list by those proposals that are candidates. A contact that touched keeps its
+    /// history if its proposal is there again; padding gets the record `idle`. `carried` is memory
+    /// to work in.
+    void build(const Proposals<T>& proposals, std::int32_t idle, CarriedHistory<T>& carried);
+    /// Gives proposals other numbers: that of k becomes number[k], negative if it is gone.
+    void renumber(std::span<const std::int32_t> number);
     /// The candidates that can touch while no more than `used` of any reserve is used up.
     kernels::Candidates<T> view(double used, Aligned<std::int32_t>& scratch);
-
-  private:
-    /// History of a contact on its way from one list to the next.
-    struct Kept {
-        std::int32_t source;
-        kernels::ContactHistory<T> history;
-    };
-    std::vector<Kept> touching_contacts() const;
 };
 
 }  // namespace grainfield::core

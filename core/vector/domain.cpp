@@ -13,16 +13,30 @@ std::int32_t Domain<T>::record(std::int32_t slot) const {
            static_cast<std::int32_t>(at - ghost_slots.begin());
 }
 
+namespace {
+
+/// Number that each neighbour of the domain will have among `pairs`; negative if it is not there.
 template <class T>
-void set_neighbours(Domain<T>& domain, std::span<const kernels::Pair> pairs) {
-    // Contacts that touch are neighbours before and after: they get their new number.
-    domain.pairs.renumber([&](std::size_t k) {
-        if (!domain.pairs.touches(k)) return std::int32_t{-1};
-        const kernels::Pair key{domain.slot(domain.pairs.a[k]), domain.slot(domain.pairs.b[k])};
-        const auto at = std::lower_bound(pairs.begin(), pairs.end(), key);
-        return at != pairs.end() && *at == key ? static_cast<std::int32_t>(at - pairs.begin())
-                                               : std::int32_t{-1};
-    });
+std::vector<std::int32_t> new_numbers(const Domain<T>& domain,
+                                      std::span<const kernels::Pair> pairs) {
+    const Proposals<T>& old = domain.neighbours;
+    std::vector<std::int32_t> number(old.count, -1);
+    auto at = pairs.begin();
+    for (std::size_t k = 0; k < old.count; ++k) {
+        const kernels::Pair key{domain.slot(old.a[k]), domain.slot(old.b[k])};
+        while (at != pairs.end() && *at < key) ++at;
+        if (at != pairs.end() && *at == key)
+            number[k] = static_cast<std::int32_t>(at - pairs.begin());
+    }
+    return number;
+}
+
+}  // namespace
+
+template <class T>
+void set_neighbours(Domain<T>& domain, std::span<const kernels::Pair> pairs,
+                    const BuiltState& state) {
+    domain.pairs.renumber(new_numbers(domain, pairs));
     auto& ghosts = domain.ghost_slots;
     ghosts.clear();
     for (const auto& [i, j] : pairs) {
@@ -36,80 +50,60 @@ void set_neighbours(Domain<T>& domain, std::span<const kernels::Pair> pairs) {
     idle = {};
     idle.radius = 1;
     idle.stiffness = 1;
-    domain.neighbours.clear();
-    domain.neighbours.reserve(pairs.size());
-    for (const auto& [i, j] : pairs)
-        domain.neighbours.push_back({domain.record(i), domain.record(j)});
+    Proposals<T>& neighbours = domain.neighbours;
+    neighbours.resize(pairs.size(), domain.idle());
+    const Vec3Column& x = state.position;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        const auto [i, j] = pairs[k];
+        neighbours.a[k] = domain.record(i);
+        neighbours.b[k] = domain.record(j);
+        const Vec3 branch = x[j] - x[i];
+        kernels::BuiltSeparation<T>& s = neighbours.separation[k];
+        for (int a = 0; a < 3; ++a) s.x[a] = static_cast<T>(branch[a]);
+        s.gap = static_cast<T>(state.radius[i] + state.radius[j] - branch.norm());
+    }
 }
-
-namespace {
 
 template <class T>
 void build_wall_lists(Domain<T>& domain, const BuiltState& state, std::span<const Wall> walls,
-                      std::vector<Candidate<T>>& near) {
+                      ListScratch<T>& scratch) {
     std::vector<WallList<T>> old = std::move(domain.walls);
     domain.walls.clear();
     for (std::size_t w = 0; w < walls.size(); ++w) {
-        near.clear();
         const Vec3& n = walls[w].normal;
         const double offset = n.dot(walls[w].point);
+        const Vec3 nearest = (n.array() < 0).select(domain.centres.upper, domain.centres.lower);
+        if (offset - n.dot(nearest) < -(domain.largest_reach + state.wall_reserve)) continue;
+        Proposals<T>& near = scratch.near_wall;
+        near.resize(domain.own, domain.idle());
+        bool any = false;
         for (std::size_t k = 0; k < domain.own; ++k) {
             const std::size_t slot = domain.first + k;
             const double gap = state.radius[slot] + offset - n.dot(state.position[slot]);
             const double room = state.reserve[slot] + state.wall_reserve;
-            if (gap < -room) continue;
-            const auto record = static_cast<std::int32_t>(k);  // own records never change
-            near.push_back({record,
-                            record,
-                            domain.idle(),
-                            stretch_of(-gap / room),
-                            {{0, 0, 0}, static_cast<T>(gap)}});
+            near.a[k] = near.b[k] = static_cast<std::int32_t>(k);
+            near.separation[k] = {{0, 0, 0}, static_cast<T>(gap)};
+            near.stretch[k] =
+                gap < -room ? std::uint8_t{kernels::stretches} : stretch_of(-gap / room);
+            any |= gap >= -room;
         }
-        if (near.empty()) continue;
+        if (!any) continue;
         const auto wall = static_cast<std::int32_t>(w);
         WallList<T> made{wall, {}};
         for (WallList<T>& before : old)
             if (before.wall == wall) made = std::move(before);
-        made.list.build(near, domain.idle());
+        made.list.build(near, domain.idle(), scratch.carried);
         domain.walls.push_back(std::move(made));
     }
 }
 
-}  // namespace
-
-template <class T>
-void build_lists(Domain<T>& domain, const BuiltState& state, std::span<const Wall> walls,
-                 std::vector<Candidate<T>>& candidates) {
-    candidates.clear();
-    candidates.reserve(domain.neighbours.size());
-    const Vec3Column& x = state.position;
-    for (std::size_t k = 0; k < domain.neighbours.size(); ++k) {
-        const auto [a, b] = domain.neighbours[k];
-        const std::int32_t i = domain.slot(a), j = domain.slot(b);
-        const double dx = x.x[j] - x.x[i], dy = x.y[j] - x.y[i], dz = x.z[j] - x.z[i];
-        const double reach = state.radius[i] + state.radius[j];
-        const double room = state.reserve[i] + state.reserve[j];
-        const double square = dx * dx + dy * dy + dz * dz;
-        if (square >= (reach + room) * (reach + room)) continue;
-        const double gap = reach - std::sqrt(square);
-        candidates.push_back(
-            {static_cast<std::int32_t>(k),
-             a,
-             b,
-             stretch_of(-gap / room),
-             {{static_cast<T>(dx), static_cast<T>(dy), static_cast<T>(dz)}, static_cast<T>(gap)}});
-    }
-    domain.pairs.build(candidates, domain.idle());
-    build_wall_lists(domain, state, walls, candidates);
-}
-
 template struct Domain<float>;
 template struct Domain<double>;
-template void set_neighbours(Domain<float>&, std::span<const kernels::Pair>);
-template void set_neighbours(Domain<double>&, std::span<const kernels::Pair>);
-template void build_lists(Domain<float>&, const BuiltState&, std::span<const Wall>,
-                          std::vector<Candidate<float>>&);
-template void build_lists(Domain<double>&, const BuiltState&, std::span<const Wall>,
-                          std::vector<Candidate<double>>&);
+template void set_neighbours(Domain<float>&, std::span<const kernels::Pair>, const BuiltState&);
+template void set_neighbours(Domain<double>&, std::span<const kernels::Pair>, const BuiltState&);
+template void build_wall_lists(Domain<float>&, const BuiltState&, std::span<const Wall>,
+                               ListScratch<float>&);
+template void build_wall_lists(Domain<double>&, const BuiltState&, std::span<const Wall>,
+                               ListScratch<double>&);
 
 }  // namespace grainfield::core

@@ -33,8 +33,8 @@ struct Domain {
     std::vector<std::int32_t> ghost_slots;                     ///< ascending
     std::vector<const kernels::SphereRecord<T>*> ghost_homes;  ///< where ghosts are copied from
 
-    /// Neighbours as records: all that can become candidates before the next search.
-    std::vector<std::array<std::int32_t, 2>> neighbours;
+    /// All that can become candidates before the next search, ascending by slots.
+    Proposals<T> neighbours;
     CandidateList<T> pairs;
     std::vector<WallList<T>> walls;
 
@@ -42,6 +42,8 @@ struct Domain {
     kernels::PassResult pass;
     std::vector<kernels::WallLoad> wall_loads;  ///< one a wall of the scene
     kernels::MoveResult motion;
+    Box centres;               ///< of its own spheres when the lists were built [m]
+    double largest_reach = 0;  ///< of its own spheres: radius and reserve [m]
 
     std::size_t ghost_begin() const { return kernels::padded(own); }
     std::int32_t idle() const { return static_cast<std::int32_t>(records.size() - 1); }
@@ -66,16 +68,23 @@ struct BuiltState {
     double wall_reserve = 0;  ///< what a wall may deviate from the box's strain [m]
 };
 
+/// Memory of a thread to build lists in.
+template <class T>
+struct ListScratch {
+    Proposals<T> near_wall;
+    CarriedHistory<T> carried;
+};
+
 /// Gives the domain new neighbours: `pairs` as slots, ascending by (i, j), i < j, at least one of
 /// the two its own. Contacts that touch keep their history. Ghosts' records are left to copy, and
-/// build_lists() has to follow.
+/// the lists have to be built.
 template <class T>
-void set_neighbours(Domain<T>& domain, std::span<const kernels::Pair> pairs);
+void set_neighbours(Domain<T>& domain, std::span<const kernels::Pair> pairs,
+                    const BuiltState& state);
 
-/// Chooses the candidates among the neighbours; contacts that touch keep their history. `found` is
-/// memory to work in.
+/// Chooses the candidates of every wall; contacts that touch keep their history.
 template <class T>
-void build_lists(Domain<T>& domain, const BuiltState& state, std::span<const Wall> walls,
-                 std::vector<Candidate<T>>& found);
+void build_wall_lists(Domain<T>& domain, const BuiltState& state, std::span<const Wall> walls,
+                      ListScratch<T>& scratch);
 
 }  // namespace grainfield::core

@@ -7,7 +7,7 @@ namespace grainfield::core {
 namespace {
 
 /// Spheres of a domain: with their contacts they fill about half of a 1 MB cache.
-constexpr std::size_t domain_size = 2400;
+constexpr std::size_t domain_size = 5000;
 
 template <class T>
 void assign3(T (&to)[3], const Vec3& from) {

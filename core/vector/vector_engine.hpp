@@ -20,7 +20,7 @@ template <class T>
 struct Scratch {
     Aligned<kernels::SphereLoad<T>> loads;
     Aligned<std::int32_t> touching;
-    std::vector<Candidate<T>> candidates;
+    ListScratch<T> lists;
 };
 
 template <class T>
@@ -68,6 +68,8 @@ class VectorEngine : public Engine {
     double used_reserves() const;
     void rebuild();
     void fix_positions();
+    void forget_displacements();
+    void build_lists();
     void name_lost_sphere(const Domain<T>& domain) const;
     bool choose_reserves();
     void find_neighbours();

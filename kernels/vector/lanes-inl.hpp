@@ -75,6 +75,13 @@ template <class T>
 HWY_INLINE Lane3<T> tangential(Lane3<T> v, Lane3<T> n) {
     return minus_scaled(v, dot(v, n), n);
 }
+/// How much a pair has come closer or apart: |b|^2 - |b0|^2 of the branch b since the lists were
+/// built.
+template <class T>
+HWY_INLINE Lane<T> growth2(Lane3<T> built, Lane3<T> moved) {
+    return dot(moved, plus_scaled(moved, set<T>(2), built));
+}
+
 template <class T>
 HWY_INLINE Lane3<T> set3(const T* v) {
     return {set(v[0]), set(v[1]), set(v[2])};
@@ -129,8 +136,8 @@ HWY_INLINE Lane4<T> load_places(const SphereRecord<T>* records, const std::int32
 template <class T>
 HWY_INLINE void add_loads(SphereLoad<T>* loads, const std::int32_t* index, Lane3<T> force,
                           Lane3<T> moment) {
-    const Lane<T> one = set<T>(1), zero = hn::Zero(Tag<T>());
-    add4<T>({force.x, force.y, force.z, one}, {loads[*index].force}, 0);
+    const Lane<T> zero = hn::Zero(Tag<T>());
+    add4<T>({force.x, force.y, force.z, zero}, {loads[*index].force}, 0);
     add4<T>({moment.x, moment.y, moment.z, zero}, {loads[*index].force}, 4);
 }
 template <class T>
@@ -285,13 +292,13 @@ HWY_INLINE Lane4<T> load_places(const SphereRecord<T>* records, const std::int32
     return load4<T>(at, 0);
 }
 
-/// Adds force, moment and one contact to the loads of every lane, in a fixed order of the lanes.
+/// Adds force and moment to the loads of every lane, in a fixed order of the lanes.
 template <class T>
 HWY_INLINE void add_loads(SphereLoad<T>* loads, const std::int32_t* index, Lane3<T> force,
                           Lane3<T> moment) {
-    const Lane<T> one = set<T>(1), zero = hn::Zero(Tag<T>());
-    Lane4<T> f{force.x, force.y, force.z, one}, m{moment.x, moment.y, moment.z, zero};
-    if constexpr (sizeof(T) == 4 && blocks < T >> 1) {
+    const Lane<T> zero = hn::Zero(Tag<T>());
+    Lane4<T> f{force.x, force.y, force.z, zero}, m{moment.x, moment.y, moment.z, zero};
+    if constexpr (sizeof(T) == 4 && (blocks < T >> 1)) {
         // A load of eight floats at once: blocks of force and moment side by side.
         const hn::Full256<T> d;
         transpose(f.x, f.y, f.z, f.w);

@@ -16,13 +16,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainfield::kernels::HWY_NAMESPACE {
 
-/// How much a pair has come closer or apart: |b|^2 - |b0|^2 of the branch b since the lists were
-/// built.
-template <class T>
-HWY_INLINE Lane<T> growth2(Lane3<T> built, Lane3<T> moved) {
-    return dot(moved, plus_scaled(moved, set<T>(2), built));
-}
-
 /// What all batches of a call share.
 template <class T>
 struct PairCall {
@@ -36,6 +29,17 @@ struct PairCall {
 /// that wait for each other; a processor looks ahead further than one stage, but not further than
 /// the whole chain, so that stage by stage it works on several batches at once.
 inline constexpr std::size_t group = 4;
+
+/// Candidates are read in order, but faster than the processor foresees: batches to ask for early.
+inline constexpr std::size_t ahead = 3 * group;
+
+/// Asks memory for one group's worth of rows of four from `row` on; may lie beyond the end.
+template <class Row>
+HWY_INLINE void fetch_ahead(const Row* row) {
+    const char* at = reinterpret_cast<const char*>(row);
+    constexpr std::size_t bytes = group * HWY_LANES(std::uint8_t) * 4;  // a vector a component
+    for (std::size_t line = 0; line < bytes; line += 64) __builtin_prefetch(at + line);
+}
 
 /// One batch between the stages.
 template <class T>
@@ -170,6 +174,8 @@ HWY_INLINE void close_forces(const PairCall<T>& call, LaneMask<T>& too_deep, Pas
     PairBatch<T> batches[group];
     for (std::size_t first = 0; first < c.close; first += group * n) {
         const std::size_t count = std::min(group, (c.close - first) / n);
+        fetch_ahead(c.separation + first + ahead * n);
+        if constexpr (Friction) fetch_ahead(c.history + first + ahead * n);
         for (std::size_t q = 0; q < count; ++q) {
             const std::size_t k = first + q * n;
             PairBatch<T>& batch = batches[q];

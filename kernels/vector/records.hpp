@@ -24,7 +24,7 @@ struct alignas(16 * sizeof(T)) SphereRecord {
     T inverse_mass;     ///< of the motion; differs from 1/mass if scaled [1/kg]
     T inverse_inertia;  ///< of the spin [1/(kg m2)]
     T mass;             ///< gravitational [kg]
-    T spare;            ///< unused [-]
+    T reserve;          ///< what it may move beyond the box's strain before the next lists [m]
 };
 static_assert(sizeof(SphereRecord<float>) == 64);
 static_assert(sizeof(SphereRecord<double>) == 128);
@@ -33,9 +33,9 @@ static_assert(sizeof(SphereRecord<double>) == 128);
 template <class T>
 struct alignas(8 * sizeof(T)) SphereLoad {
     T force[3];   ///< resultant of the contacts [N]
-    T contacts;   ///< number of them [-]
-    T moment[3];  ///< [N m]
     T spare;      ///< unused [-]
+    T moment[3];  ///< [N m]
+    T spare_too;  ///< unused [-]
 };
 static_assert(sizeof(SphereLoad<float>) == 32);
 
@@ -67,6 +67,20 @@ inline constexpr std::size_t most_lanes = 16;
 inline constexpr std::size_t padded(std::size_t n) {
     return (n + most_lanes - 1) / most_lanes * most_lanes;
 }
+
+/// Candidates are sorted by how much of their reserves two bodies must use up before they can
+/// meet: in the first stretch are those that may touch at once, the last may be left alone for
+/// long. A step looks at the stretches that the motion since the build has brought into play.
+inline constexpr std::size_t stretches = 8;
+
+/// Pairs of spheres that may become candidates, padded to multiples of most_lanes.
+template <class T>
+struct Neighbours {
+    std::size_t size;
+    const std::int32_t *a, *b;  ///< records
+    BuiltSeparation<T>* separation;
+    std::uint8_t* stretch;  ///< `stretches` if they cannot meet before the next lists
+};
 
 /// Candidate contacts, two spheres (or a sphere and a wall: b is unused) each. The kernels look at
 /// the first `size`. Of these the first `close`, most of which touch, go through the contact law as

@@ -9,6 +9,7 @@
 
 #include <utility>
 
+#include "kernels/vector/list_kernel-inl.hpp"
 #include "kernels/vector/move_kernel-inl.hpp"
 #include "kernels/vector/wall_kernel-inl.hpp"
 
@@ -24,6 +25,7 @@ const VectorKernels<T>& vector_kernels() {
         ((t.wall[V] = wall_forces<T, (V & 1) != 0, (V & 2) != 0, (V & 4) != 0>), ...);
         ((t.move[M] = move_records<T, (M & 1) != 0, (M & 2) != 0, (M & 4) != 0, (M & 8) != 0>),
          ...);
+        t.place_neighbours = place_neighbours<T>;
         return t;
     }
     (std::make_index_sequence<8>(), std::make_index_sequence<16>());

@@ -26,6 +26,8 @@ struct VectorKernels {
     /// Moves records 0 <= k < n (n padded) by one step.
     MoveResult (*move[16])(SphereRecord<T>*, const SphereLoad<T>*, const BuiltPlace<T>*,
                            const MoveParameters<T>&, std::size_t n);
+    /// Separations as they are now, and the stretch of each pair by the reserves of its records.
+    void (*place_neighbours)(const SphereRecord<T>*, const Neighbours<T>&);
 };
 
 /// Place of a kernel in the tables above.

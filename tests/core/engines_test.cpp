@@ -131,11 +131,21 @@ TEST(SpatialOrder, TakesSpheresInOnePlaceAndNone) {
 }
 
 TEST(CandidateList, KeepsHistoryThroughBuildsAndStretches) {
-    CandidateList<float> list;
-    const auto candidate = [](std::int32_t source, std::uint8_t stretch) {
-        return Candidate<float>{source, source, source + 1, stretch, {{1, 0, 0}, -0.1f}};
+    // Six proposals, of records 0 and 1, 1 and 2, ...; those of stretch 8 are no candidates.
+    const auto proposals = [](const std::array<std::uint8_t, 6>& stretch) {
+        Proposals<float> p;
+        p.resize(stretch.size(), 99);
+        for (std::size_t k = 0; k < stretch.size(); ++k) {
+            p.a[k] = static_cast<std::int32_t>(k);
+            p.b[k] = p.a[k] + 1;
+            p.separation[k] = {{1, 0, 0}, -0.1f};
+            p.stretch[k] = stretch[k];
+        }
+        return p;
     };
-    list.build(std::vector{candidate(2, 0), candidate(3, 1), candidate(5, 0)}, 99);
+    CandidateList<float> list;
+    CarriedHistory<float> carried;
+    list.build(proposals({8, 8, 0, 1, 8, 0}), 99, carried);
     ASSERT_EQ(list.count(), 3u);
     EXPECT_EQ(list.source, (std::vector<std::int32_t>{2, 5, 3}));
     EXPECT_EQ(list.a.back(), 99) << "no padding at the end";
@@ -143,13 +153,20 @@ TEST(CandidateList, KeepsHistoryThroughBuildsAndStretches) {
         list.set_touching(k);
         list.history[k].shear[0] = static_cast<float>(list.source[k]);
     }
-    list.build(std::vector{candidate(1, 0), candidate(3, 0), candidate(4, 2), candidate(5, 7)}, 99);
+    list.build(proposals({8, 0, 8, 0, 2, 7}), 99, carried);
     EXPECT_EQ(list.source, (std::vector<std::int32_t>{1, 3, 4, 5}));
     for (std::size_t k = 0; k < 4; ++k) {
         const bool kept = list.source[k] == 3 || list.source[k] == 5;
         EXPECT_EQ(list.touches(k), kept);
         EXPECT_EQ(list.history[k].shear[0], kept ? static_cast<float>(list.source[k]) : 0.0f);
     }
+    // Proposals numbered anew: 3 is 0 now, 5 is gone.
+    list.renumber(std::vector<std::int32_t>{5, 4, 3, 0, 2, -1});
+    list.build(proposals({0, 0, 8, 8, 8, 0}), 99, carried);
+    EXPECT_EQ(list.source, (std::vector<std::int32_t>{0, 1, 5}));
+    EXPECT_EQ(list.history[0].shear[0], 3.0f);
+    EXPECT_TRUE(list.touches(0));
+    EXPECT_FALSE(list.touches(1) || list.touches(2));
     Aligned<std::int32_t> scratch;
     EXPECT_EQ(list.view(0.0, scratch).close, 16u);
     EXPECT_EQ(list.view(0.99, scratch).size, 16u);
