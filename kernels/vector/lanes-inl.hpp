@@ -298,7 +298,7 @@ HWY_INLINE void add_loads(SphereLoad<T>* loads, const std::int32_t* index, Lane3
                           Lane3<T> moment) {
     const Lane<T> zero = hn::Zero(Tag<T>());
     Lane4<T> f{force.x, force.y, force.z, zero}, m{moment.x, moment.y, moment.z, zero};
-    if constexpr (sizeof(T) == 4 && (blocks < T >> 1)) {
+    if constexpr (sizeof(T) == 4 && 1 < blocks<T>) {
         // A load of eight floats at once: blocks of force and moment side by side.
         const hn::Full256<T> d;
         transpose(f.x, f.y, f.z, f.w);
