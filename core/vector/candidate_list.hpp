@@ -14,10 +14,9 @@ namespace grainfield::core {
 /// Stretch (kernels::stretches) of a candidate that touches once the share `used` of its reserves
 /// is used up [-].
 inline std::uint8_t stretch_of(double used) {
-    // Truncation is rounding down: what overlaps already (used < 0) belongs to the first.
-    const double stretch = used * static_cast<double>(kernels::stretches);
-    return stretch > 0 ? static_cast<std::uint8_t>(std::min(stretch, kernels::stretches - 1.0))
-                       : std::uint8_t{0};
+    if (used < kernels::first_stretch) return 0;
+    constexpr auto last = static_cast<double>(kernels::stretches - 1);
+    return static_cast<std::uint8_t>(std::min(1 + used * last, last));
 }
 
 /// Pairs that a candidate list is chosen from, in an order that lasts from one build to the next.

@@ -18,7 +18,8 @@ void place_neighbours(const SphereRecord<T>* records, const Neighbours<T>& list)
     const Tag<T> d;
     const auto zero = hn::Zero(d), last = set<T>(T(stretches));
     // A little earlier than need be: round-off must not make a pair come too late.
-    const auto early = set<T>(T(stretches * (1 - 1e-5)));
+    const auto early = set<T>(T(1 - 1e-5)), rest = set<T>(T(stretches - 1));
+    const auto first = set<T>(T(first_stretch)), one = set<T>(1);
     for (std::size_t k = 0; k < list.size; k += n) {
         alignas(64) T rooms[n], used[n];
         for (std::size_t l = 0; l < n; ++l)
@@ -34,8 +35,9 @@ void place_neighbours(const SphereRecord<T>* records, const Neighbours<T>& list)
             hn::Sub(built.w, hn::Div(growth2<T>(built.xyz(), moved), hn::Add(now, before)));
         store_rows<T>({branch.x, branch.y, branch.z, gap}, list.separation[k].x);
         // Rounded down; pairs that overlap already belong to the first stretch.
-        const auto share = hn::Div(hn::Neg(gap), hn::Load(d, rooms));
-        hn::Store(hn::Max(zero, hn::Min(last, hn::Mul(early, share))), d, used);
+        const auto share = hn::Mul(early, hn::Div(hn::Neg(gap), hn::Load(d, rooms)));
+        const auto later = hn::Min(last, hn::MulAdd(rest, share, one));
+        hn::Store(hn::IfThenElse(hn::Lt(share, first), zero, later), d, used);
         for (std::size_t l = 0; l < n; ++l)
             list.stretch[k + l] = static_cast<std::uint8_t>(used[l]);
     }

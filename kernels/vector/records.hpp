@@ -69,9 +69,11 @@ inline constexpr std::size_t padded(std::size_t n) {
 }
 
 /// Candidates are sorted by how much of their reserves two bodies must use up before they can
-/// meet: in the first stretch are those that may touch at once, the last may be left alone for
-/// long. A step looks at the stretches that the motion since the build has brought into play.
+/// meet: in the first stretch, a short one, are those that touch or nearly do, the last may be left
+/// alone for long. A step looks at the stretches that the motion since the build has brought into
+/// play.
 inline constexpr std::size_t stretches = 8;
+inline constexpr double first_stretch = 0.01;  ///< its length, as a share of the reserves [-]
 
 /// Pairs of spheres that may become candidates, padded to multiples of most_lanes.
 template <class T>
