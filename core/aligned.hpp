@@ -25,4 +25,17 @@ struct LineAllocator {
 template <class T>
 using Aligned = std::vector<T, LineAllocator<T>>;
 
+/// Resizes a list whose length changes a little every time: a tenth of reserve instead of the
+/// doubling of a vector, which would never be used.
+template <class Column>
+void resize_list(Column& column, std::size_t n) {
+    if (column.capacity() < n) {
+        Column wider;
+        wider.reserve(n + n / 10);
+        wider.assign(column.begin(), column.end());
+        column.swap(wider);
+    }
+    column.resize(n);
+}
+
 }  // namespace grainfield::core

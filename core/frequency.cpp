@@ -77,12 +77,14 @@ std::vector<double> stiffness_on_mass(const Simulation& simulation,
 }  // namespace
 
 void FrequencyEstimator::assemble(const Simulation& simulation) {
+    springs_ = {};  // frees those of the last estimate first
     springs_ = contact_springs(simulation);
     const std::vector<double> sum = stiffness_on_mass(simulation, springs_);
     const double limit = softest_part * *std::max_element(sum.begin(), sum.end());
     std::erase_if(springs_, [&](const ContactSpring& k) {
         return sum[k.i] < limit && (k.j < 0 || sum[k.j] < limit);
     });
+    springs_.shrink_to_fit();  // few are left
     // Only spheres that take part get a number.
     std::vector<std::int32_t> number(simulation.size(), -1);
     std::vector<std::int32_t> spheres;

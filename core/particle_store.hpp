@@ -2,19 +2,18 @@
 // The spheres: a structure of arrays with cache-line aligned columns. Mutable state stands apart
 // from properties; what a step computes and forgets (forces) does not live here.
 
-#include <tbb/cache_aligned_allocator.h>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "core/aligned.hpp"
 #include "kernels/vec3.hpp"
 
 namespace grainfield::core {
 
 template <class T>
-using Column = std::vector<T, tbb::cache_aligned_allocator<T>>;
+using Column = Aligned<T>;
 
 /// A column of vectors, one array a component.
 struct Vec3Column {

@@ -16,9 +16,9 @@ template <class T>
 void Proposals<T>::resize(std::size_t n, std::int32_t idle) {
     count = n;
     const std::size_t size = kernels::padded(n);
-    for (auto* column : {&a, &b}) column->resize(size);
-    separation.resize(size);
-    stretch.resize(size);
+    for (auto* column : {&a, &b}) resize_list(*column, size);
+    resize_list(separation, size);
+    resize_list(stretch, size);
     for (std::size_t k = n; k < size; ++k) {
         a[k] = b[k] = idle;
         separation[k] = far_apart<T>;
@@ -48,15 +48,16 @@ void CandidateList<T>::build(const Proposals<T>& proposals, std::int32_t idle,
     for (std::size_t p = 0; p < proposals.count; ++p) ++first[proposals.stretch[p] + 1u];
     std::partial_sum(first.begin(), first.end(), first.begin());
     std::copy_n(first.begin(), begin.size(), begin.begin());
-    source.resize(proposals.count);
+    carried.source.resize(proposals.count);
     for (std::size_t p = 0; p < proposals.count; ++p)
-        source[first[proposals.stretch[p]]++] = static_cast<std::int32_t>(p);
-    source.resize(count());
+        carried.source[first[proposals.stretch[p]]++] = static_cast<std::int32_t>(p);
+    resize_list(source, count());
+    std::copy_n(carried.source.begin(), count(), source.begin());
     // The last entry is always padding.
     const std::size_t size = kernels::padded(count() + 1);
-    for (auto* column : {&a, &b}) column->resize(size);
-    separation.resize(size);
-    history.resize(size);
+    for (auto* column : {&a, &b}) resize_list(*column, size);
+    resize_list(separation, size);
+    resize_list(history, size);
     touching.assign(size / kernels::most_lanes, 0);
     for (std::size_t k = 0; k < count(); ++k) {
         const auto p = static_cast<std::size_t>(source[k]);

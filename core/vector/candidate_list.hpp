@@ -31,11 +31,12 @@ struct Proposals {
     void resize(std::size_t n, std::int32_t idle);
 };
 
-/// Histories on their way from one list to the next, by proposal.
+/// Memory to build a list in: histories on their way from one list to the next, by proposal.
 template <class T>
 struct CarriedHistory {
     std::vector<kernels::ContactHistory<T>> history;
     std::vector<std::uint8_t> touched;
+    std::vector<std::int32_t> source;  ///< of the new candidates
 };
 
 template <class T>

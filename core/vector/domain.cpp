@@ -45,7 +45,7 @@ void set_neighbours(Domain<T>& domain, std::span<const kernels::Pair> pairs,
     }
     std::sort(ghosts.begin(), ghosts.end());
     ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
-    domain.records.resize(domain.ghost_begin() + ghosts.size() + 1);
+    resize_list(domain.records, domain.ghost_begin() + ghosts.size() + 1);
     kernels::SphereRecord<T>& idle = domain.records.back();
     idle = {};
     idle.radius = 1;
