@@ -5,7 +5,6 @@
 #include <omp.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "bench/machine.hpp"
+#include "bench/statistics.hpp"
 #include "bench/stressed_sample.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/servo.hpp"
@@ -69,11 +69,6 @@ class ShearedSample {
     std::vector<core::WallServo> servos_;
 };
 
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
-
 /// Least traffic of a step in float: a record and its force a sphere, ids, separation and shear a
 /// contact [B].
 double least_traffic(double spheres, double contacts) {
@@ -106,7 +101,7 @@ std::string measure(std::vector<Case>& cases, int rounds, int steps, double tria
     for (std::size_t k = 0; k < cases.size(); ++k) {
         const Case& c = cases[k];
         const core::Simulation& sim = c.sample->simulation();
-        const double ms = median(c.milliseconds);
+        const double ms = bench::median(c.milliseconds);
         const auto spheres = static_cast<double>(sim.size());
         const auto contacts = static_cast<double>(sim.touching_contacts());
         const double traffic = least_traffic(spheres, contacts);
