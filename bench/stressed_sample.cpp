@@ -34,9 +34,11 @@ core::Box box_of(const core::Scene& scene) {
 
 }  // namespace
 
-core::Scene full_sample(const std::filesystem::path& file) {
+core::Scene stressed_sample(const std::filesystem::path& file,
+                            const std::array<std::int32_t, 3>& blocks) {
     if (!std::filesystem::exists(file)) {
         triaxial::Config config;
+        config.packing.blocks = blocks;
         config.packing.spheres = 351;
         config.packing.isotropic_stress = 100e3;
         core::Monitor silent;
@@ -48,6 +50,10 @@ core::Scene full_sample(const std::filesystem::path& file) {
     }
     core::SphereFile read = core::read_spheres(file);
     return scene_in(std::move(read.spheres), read.box.value_or(core::bounding_box(read.spheres)));
+}
+
+core::Scene full_sample(const std::filesystem::path& file) {
+    return stressed_sample(file, packing::PackingOptions{}.blocks);
 }
 
 core::Scene mirrored(const core::Scene& scene, const std::array<int, 3>& times) {

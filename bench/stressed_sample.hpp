@@ -2,14 +2,19 @@
 // The sample that step rates are measured on: clones of the paper's block at 100 kPa.
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 
 #include "core/scene.hpp"
 
 namespace grainfield::bench {
 
-/// The paper's sample, held at 100 kPa without gravity: read from `file` (.h5), or packed and left
-/// there for the next time (some minutes). Throws what packing and files throw.
+/// So many blocks of the paper's sample, held at 100 kPa without gravity: read from `file` (.h5),
+/// or packed and left there for the next time. Throws what packing and files throw.
+core::Scene stressed_sample(const std::filesystem::path& file,
+                            const std::array<std::int32_t, 3>& blocks);
+
+/// The same of the paper's whole sample (some minutes where it has to be packed).
 core::Scene full_sample(const std::filesystem::path& file);
 
 /// Mirror images of a scene's spheres, `times` along each axis, in a box that fits.
