@@ -39,7 +39,7 @@ plot '0-0.dat' using 1:2 with linespoints pt 7 ps 1.5 lw 2 lc rgb '{contrast}' t
 }  // namespace
 
 void collisions(const StabilityRun& run) {
-    const double time = run.quick ? 0.02 : 0.6;  // [s]
+    const double time = run.quick ? 0.02 : 0.4;  // [s]
     const triaxial::report::Gnuplot gnuplot;
     std::string csv = header;
     for (const double friction : {0.0, run.small.spheres.friction_angle[0]})

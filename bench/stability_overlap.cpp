@@ -87,8 +87,8 @@ set bmargin at screen 0.15
 
 set lmargin at screen 0.085
 set rmargin at screen 0.475
-set yrange [1e-6:1]
-set ylabel 'Ledger error over elastic energy (-)'
+set yrange [1e-4:100]
+set ylabel 'Ledger error over elastic energy (-)' offset 0.5,0
 set key top right Left reverse
 plot 'reference-0.8.dat' using 1:2 with linespoints pt 6 ps 2.4 lw 2 lc rgb '{soft}' title 'reference, safety 0.8', \
      'double-0.8.dat' using 1:2 with linespoints pt 7 ps 1.2 lw 1.5 lc rgb '{main}' title 'double', \
@@ -99,7 +99,7 @@ plot 'reference-0.8.dat' using 1:2 with linespoints pt 6 ps 2.4 lw 2 lc rgb '{so
 
 set lmargin at screen 0.585
 set rmargin at screen 0.975
-set yrange [0.01:100]
+set yrange [1:1000]
 set ylabel 'Largest speed of a sphere (m/s)'
 set key top left
 plot 'reference-0.8.dat' using 1:3 with linespoints pt 6 ps 2.4 lw 2 lc rgb '{soft}' title 'reference', \

@@ -61,7 +61,7 @@ set logscale x
 set xrange [0.007:1.4]
 set xtics ('0.01' 0.01, '0.03' 0.03, '0.1' 0.1, '0.3' 0.3, '1' 1)
 set xlabel 'Strain rate (1/s)' offset 0,0.3
-set key top left Left reverse
+set key bottom right Left reverse
 
 set lmargin at screen 0.085
 set rmargin at screen 0.475
@@ -79,11 +79,13 @@ plot 'runs.dat' using 1:3 with points pt 6 ps 1.3 lw 1.2 lc rgb '{soft}' title '
      'means.dat' using 1:4:5 with yerrorbars pt 7 ps 1.1 lw 1.8 lc rgb '{main}' title 'mean ± deviation'
 
 set logscale y
+set key top left Left reverse
 set lmargin at screen 0.085
 set rmargin at screen 0.475
 set tmargin at screen 0.48
 set bmargin at screen 0.11
-set yrange [0.001:30]
+set yrange [0.005:200]
+set ytics ('0.01' 0.01, '0.1' 0.1, '1' 1, '10' 10, '100' 100)
 set ylabel 'Error of the lateral stress (%)'
 set arrow 1 from graph 0,first 0.5 to graph 1,first 0.5 nohead lw 1 dt 3 lc rgb '{main}' back
 set arrow 2 from graph 0,first 1 to graph 1,first 1 nohead lw 1 dt 3 lc rgb '{contrast}' back
@@ -94,11 +96,12 @@ unset arrow 2
 
 set lmargin at screen 0.59
 set rmargin at screen 0.98
-set yrange [1e-5:1]
+set yrange [1e-5:1000]
+set ytics autofreq
 set format y '10^{{%T}}'
 set ylabel 'Share (-)'
 plot 'runs.dat' using 1:6 with points pt 7 ps 1.2 lc rgb '{main}' title 'mean unbalanced force ratio', \
-     'runs.dat' using 1:7 with points pt 5 ps 1.1 lc rgb '{contrast}' title 'kinetic over elastic energy at the end', \
+     'runs.dat' using 1:7 with points pt 5 ps 1.1 lc rgb '{contrast}' title 'kinetic over elastic energy, end', \
      'runs.dat' using 1:8 with points pt 8 ps 1.4 lw 1.5 lc rgb '{ink}' title 'inertial number'
 unset multiplot
 )";
@@ -109,7 +112,7 @@ void strain_rates(const StabilityRun& run) {
     const core::Scene& sample = run.quick ? run.small : run.large;
     const std::vector<double> rates =
         run.quick ? std::vector<double>{0.3, 1} : std::vector<double>{0.01, 0.03, 0.1, 0.3, 1};
-    const int repeats = run.quick ? 2 : 5;
+    const int repeats = run.quick ? 2 : 3;
     const triaxial::report::Gnuplot gnuplot;
     std::string csv = header, runs, means;
     for (const double rate : rates) {

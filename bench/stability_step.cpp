@@ -21,8 +21,9 @@ namespace grainfield::bench {
 namespace {
 
 constexpr double perturbation = 3e-12;  // way of a sphere in the first step [m]
-// Beyond the limit by 0.03 % the motion grows by more than this in so many steps. Undamped, a
-// network with friction may also grow by flutter, whatever the step: several times slower.
+// Beyond the limit by 0.03 % the motion grows by more than this in so many steps. Undamped, some
+// networks with friction are no stable equilibrium either: their motion grows whatever the step,
+// several times slower.
 constexpr double growth = 1e4;     // of the motion, that counts as boundless [-]
 constexpr int steps = 260;         // [-]
 constexpr double accuracy = 3e-4;  // of the bisection [-]
@@ -91,8 +92,8 @@ constexpr const char* header =
     "theory_ratio,neighbours_fixed_s,sum_of_stiffness_s,isolated_s,step_s,step_over_limit\n";
 
 constexpr const char* picture = R"(
-set lmargin at screen 0.09
-set rmargin at screen 0.68
+set lmargin at screen 0.1
+set rmargin at screen 0.67
 set tmargin at screen 0.95
 set bmargin at screen 0.15
 set logscale x
@@ -100,15 +101,16 @@ set xrange [0.7:14000]
 set yrange [0:1.5]
 set xtics ('1' 1, '10' 10, '100' 100, '1000' 1000, '10 000' 10000)
 set xlabel 'Stiffness contrast, largest over smallest (-)'
-set ylabel 'Step over the measured limit, undamped (-)'
-set key at screen 0.70,0.95 left top Left reverse samplen 1.6 spacing 1.6
+set ylabel 'Step over the measured limit (-)' offset 1,0
+set key at screen 0.69,0.95 left top Left reverse samplen 1.6 spacing 1.6
+set label 1 'limit, undamped' at graph 0.99,first 0.965 right textcolor rgb '{muted}' font ',14'
 set arrow from graph 0,first 1 to graph 1,first 1 nohead lw 1.2 lc rgb '{muted}' back
-plot 'bounds.dat' using 1:3 with linespoints pt 4 ps 1.5 lw 1.5 dt 2 lc rgb '{contrast}' title 'measured limit, damping 0.2', \
+plot 'bounds.dat' using 1:3 with linespoints pt 4 ps 1.5 lw 1.5 dt 2 lc rgb '{contrast}' title 'limit with damping 0.2', \
      'bounds.dat' using 1:2 with linespoints pt 7 ps 1.5 lw 2 lc rgb '{main}' title 'estimate 2/ω_{{max}}', \
      'bounds.dat' using 1:7 with linespoints pt 5 ps 1.2 lw 2 lc rgb '{ink}' title 'step of the solver', \
      'bounds.dat' using 1:4 with linespoints pt 9 ps 1.4 lw 1.5 lc rgb '{soft}' title 'bound: neighbours fixed', \
      'bounds.dat' using 1:5 with linespoints pt 11 ps 1.4 lw 1.5 lc rgb '{soft}' title 'bound: 2 √(m/ΣK_n)', \
-     'bounds.dat' using 1:6 with linespoints pt 13 ps 1.4 lw 1.5 lc rgb '{soft}' title 'bound: any two alike'
+     'bounds.dat' using 1:6 with linespoints pt 13 ps 1.4 lw 1.5 lc rgb '{soft}' title 'bound: between alike'
 )";
 
 }  // namespace
