@@ -63,12 +63,12 @@ set xtics ('0.01' 0.01, '0.03' 0.03, '0.1' 0.1, '0.3' 0.3, '1' 1)
 set xlabel 'Strain rate (1/s)' offset 0,0.3
 set key bottom right Left reverse
 
-set lmargin at screen 0.085
-set rmargin at screen 0.475
+set lmargin at screen 0.095
+set rmargin at screen 0.48
 set tmargin at screen 0.97
 set bmargin at screen 0.60
 set yrange [0:*]
-set ylabel 'Peak of q (kPa)'
+set ylabel 'Peak of q (kPa)' offset 0.5,0
 plot 'runs.dat' using 1:2 with points pt 6 ps 1.3 lw 1.2 lc rgb '{soft}' title 'runs', \
      'means.dat' using 1:2:3 with yerrorbars pt 7 ps 1.1 lw 1.8 lc rgb '{main}' title 'mean ± deviation'
 
@@ -80,13 +80,13 @@ plot 'runs.dat' using 1:3 with points pt 6 ps 1.3 lw 1.2 lc rgb '{soft}' title '
 
 set logscale y
 set key top left Left reverse
-set lmargin at screen 0.085
-set rmargin at screen 0.475
+set lmargin at screen 0.095
+set rmargin at screen 0.48
 set tmargin at screen 0.48
 set bmargin at screen 0.11
 set yrange [0.005:200]
 set ytics ('0.01' 0.01, '0.1' 0.1, '1' 1, '10' 10, '100' 100)
-set ylabel 'Error of the lateral stress (%)'
+set ylabel 'Error of the lateral stress (%)' offset 0.5,0
 set arrow 1 from graph 0,first 0.5 to graph 1,first 0.5 nohead lw 1 dt 3 lc rgb '{main}' back
 set arrow 2 from graph 0,first 1 to graph 1,first 1 nohead lw 1 dt 3 lc rgb '{contrast}' back
 plot 'runs.dat' using 1:4 with points pt 7 ps 1.2 lc rgb '{main}' title 'RMS; allowed 0.5', \
