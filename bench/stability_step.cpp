@@ -89,7 +89,7 @@ double sum_bound(const core::Simulation& simulation) {
 
 constexpr const char* header =
     "field,contrast,damping,spheres,contacts,estimate_s,measured_limit_s,measured_over_estimate,"
-    "theory_ratio,neighbours_fixed_s,sum_of_stiffness_s,isolated_s,step_s,step_over_limit\n";
+    "theory_ratio,neighbours_fixed_s,sum_of_stiffness_s,caught_s,step_s,step_over_limit\n";
 
 constexpr const char* picture = R"(
 set lmargin at screen 0.1
@@ -127,7 +127,7 @@ void largest_stable_step(const StabilityRun& run) {
         const double step = core::StepControl({}).next(still);
         const std::vector<double> local = core::local_square_frequencies(still);
         const double fixed = 2 / std::sqrt(*std::max_element(local.begin(), local.end()));
-        const double sum = sum_bound(still), isolated = 2 / core::isolated_frequency(still);
+        const double sum = sum_bound(still), caught = 2 / core::caught_frequency(still, 0);
         std::vector<double> limits;
         for (const core::Damping damping : {core::Damping{}, sample.damping}) {
             still.set_damping(damping);
@@ -137,11 +137,11 @@ void largest_stable_step(const StabilityRun& run) {
                 "{:.4f}\n",
                 contrast, damping.force, still.size(), still.touching_contacts(), estimate,
                 limits.back(), limits.back() / estimate, 1 / std::sqrt(1 - damping.force), fixed,
-                sum, isolated, step, step / limits.back());
+                sum, caught, step, step / limits.back());
         }
         points += fmt::format("{} {} {} {} {} {} {}\n", contrast, estimate / limits[0],
                               limits[1] / limits[0], fixed / limits[0], sum / limits[0],
-                              isolated / limits[0], step / limits[0]);
+                              caught / limits[0], step / limits[0]);
         say(fmt::format("step: contrast {}: limit over estimate {:.4f} undamped, {:.4f} damped",
                         contrast, limits[0] / estimate, limits[1] / estimate));
     }

@@ -54,6 +54,8 @@ class Engine {
     virtual std::vector<TouchingContact> touching() const = 0;
     virtual std::int64_t touching_count() const = 0;
     virtual std::int64_t candidate_count() const = 0;  ///< in the lists, walls too [-]
+    /// Pairs of spheres, i < j in no particular order, that may touch before the next search.
+    virtual std::vector<kernels::Pair> neighbours() const = 0;
     /// Sum over spheres of |resultant force|; forces must be current [N].
     virtual double resultant_sum() = 0;
     /// Sets the shear force of a touching candidate [N] (used when a saved state is loaded). False

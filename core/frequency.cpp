@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/parallel.hpp"
 #include "kernels/contact_law.hpp"
@@ -247,7 +248,10 @@ double FrequencyEstimator::estimate(const Simulation& simulation, int restarts, 
     return std::sqrt(std::max(0.0, square));
 }
 
-std::vector<double> isolated_square_frequencies(const Simulation& simulation) {
+namespace {
+
+/// Caught between two spheres of its own kind.
+std::vector<double> square_between_alike(const Simulation& simulation) {
     const ParticleStore& s = simulation.spheres();
     const double ratio = simulation.scene().stiffness_ratio;
     std::vector<double> square(s.size());
@@ -262,9 +266,58 @@ std::vector<double> isolated_square_frequencies(const Simulation& simulation) {
     return square;
 }
 
-double isolated_frequency(const Simulation& simulation) {
-    const std::vector<double> square = isolated_square_frequencies(simulation);
-    return square.empty() ? 0.0 : std::sqrt(*std::max_element(square.begin(), square.end()));
+/// K_n (1/m_i + 1/m_j) of the two stiffest contacts that each sphere may have [rad2/s2].
+class StiffestTwo {
+  public:
+    explicit StiffestTwo(std::size_t spheres) : first_(spheres), second_(spheres) {}
+    void add(std::size_t i, double value) {
+        second_[i] = std::max(second_[i], std::min(first_[i], value));
+        first_[i] = std::max(first_[i], value);
+    }
+    /// As above, of unlike spheres; infinite for a sphere without two.
+    double square(std::size_t i, double ratio) const {
+        if (second_[i] == 0) return std::numeric_limits<double>::infinity();
+        return std::max(first_[i] + second_[i], 3.5 * ratio * first_[i]);
+    }
+
+  private:
+    std::vector<double> first_, second_;
+};
+
+}  // namespace
+
+std::vector<double> caught_square_frequencies(const Simulation& simulation) {
+    const Scene& scene = simulation.scene();
+    const ParticleStore& s = scene.spheres;
+    const auto inverse_mass = simulation.inverse_inertial_mass();
+    StiffestTwo stiffest(s.size());
+    for (const auto& [i, j] : simulation.neighbours()) {
+        const double kn = kernels::contact_stiffness(0.5 * (s.radius[i] + s.radius[j]),
+                                                     s.normal_stiffness[i], s.normal_stiffness[j]);
+        const double value = kn * (inverse_mass[i] + inverse_mass[j]);
+        stiffest.add(static_cast<std::size_t>(i), value);
+        stiffest.add(static_cast<std::size_t>(j), value);
+    }
+    for (const Wall& wall : scene.walls)
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            // No wall comes a diameter nearer between two estimates.
+            if (wall.normal.dot(s.position[i] - wall.point) > 3 * s.radius[i]) continue;
+            const double kn = kernels::contact_stiffness(s.radius[i], s.normal_stiffness[i],
+                                                         wall.normal_stiffness);
+            stiffest.add(i, kn * inverse_mass[i]);
+        }
+    std::vector<double> square = square_between_alike(simulation);
+    for (std::size_t i = 0; i < s.size(); ++i)
+        square[i] = std::min(square[i], stiffest.square(i, scene.stiffness_ratio));
+    return square;
+}
+
+double caught_frequency(const Simulation& simulation, double known) {
+    const auto largest = [](const std::vector<double>& square) {
+        return square.empty() ? 0.0 : std::sqrt(*std::max_element(square.begin(), square.end()));
+    };
+    const double alike = largest(square_between_alike(simulation));
+    return alike <= known ? alike : largest(caught_square_frequencies(simulation));
 }
 
 std::vector<double> local_square_frequencies(const Simulation& simulation) {

@@ -28,6 +28,9 @@ class ReferenceEngine : public Engine {
     std::int64_t candidate_count() const override {
         return static_cast<std::int64_t>(contacts_.size());
     }
+    std::vector<kernels::Pair> neighbours() const override {
+        return {contacts_.pairs().begin(), contacts_.pairs().end()};
+    }
     double resultant_sum() override;
     bool restore(std::int32_t i, std::int32_t j, const Vec3& shear) override {
         return contacts_.restore(i, j, shear);

@@ -83,6 +83,8 @@ class Simulation {
     void rebuild_lists() { engine_->invalidate_lists(); }
     std::int64_t list_builds() const { return engine_->list_builds(); }      ///< so far [-]
     std::int64_t neighbour_searches() const { return engine_->searches(); }  ///< so far [-]
+    /// Pairs of spheres, i < j, that may touch before neighbour_searches() grows; lists must exist.
+    std::vector<kernels::Pair> neighbours() const { return engine_->neighbours(); }
     /// Candidates in the lists; those that the engine looks at twice count twice [-].
     std::int64_t candidates() const { return engine_->candidate_count(); }
 

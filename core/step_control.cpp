@@ -20,22 +20,31 @@ constexpr int full_iterations = 8, update_iterations = 5;  // a round
 }  // namespace
 
 double StepControl::frequency(const Simulation& simulation, int rounds) {
-    return std::max(
-        estimator_.estimate(simulation, rounds,
-                            rounds == full_rounds ? full_iterations : update_iterations),
-        isolated_frequency(simulation));
+    network_ = estimator_.estimate(simulation, rounds,
+                                   rounds == full_rounds ? full_iterations : update_iterations);
+    const double caught = caught_frequency(simulation, network_);
+    caught_governs_ = caught > network_;
+    searches_ = simulation.neighbour_searches();
+    return std::max(network_, caught);
 }
 
 double StepControl::next(Simulation& simulation) {
     const bool scaled = options_.mass_scaling > 1.0;
     if (options_.step && !scaled) return *options_.step;
-    if (!due(simulation)) return step_;
-    const bool first = next_estimate_ < 0;
-    omega_ = frequency(simulation, first ? full_rounds : update_rounds);
-    if (scaled && (first || omega_ > 1.05 * omega_target_)) scale_masses(simulation);
+    if (due(simulation)) {
+        const bool first = next_estimate_ < 0;
+        omega_ = frequency(simulation, first ? full_rounds : update_rounds);
+        if (scaled && (first || omega_ > 1.05 * omega_target_)) scale_masses(simulation);
+        next_estimate_ = simulation.steps() + estimate_interval(simulation.size());
+    } else if (caught_governs_ && searches_ != simulation.neighbour_searches()) {
+        // Other neighbours than those that the bound was found for.
+        omega_ = std::max(network_, caught_frequency(simulation, network_));
+        searches_ = simulation.neighbour_searches();
+    } else {
+        return step_;
+    }
     const double governing = scaled ? std::max(omega_, omega_target_) : omega_;
     step_ = options_.step ? *options_.step : options_.safety * 2.0 / governing;
-    next_estimate_ = simulation.steps() + estimate_interval(simulation.size());
     return step_;
 }
 
@@ -45,8 +54,8 @@ void StepControl::scale_masses(Simulation& simulation) {
     simulation.set_inertia_scale(scale);
     omega_target_ = frequency(simulation, full_rounds) / options_.mass_scaling;
     std::vector<double> local = local_square_frequencies(simulation);
-    const std::vector<double> isolated = isolated_square_frequencies(simulation);
-    for (std::size_t i = 0; i < n; ++i) local[i] = std::max(local[i], isolated[i]);
+    const std::vector<double> caught = caught_square_frequencies(simulation);
+    for (std::size_t i = 0; i < n; ++i) local[i] = std::max(local[i], caught[i]);
     // A mode of the network is up to sqrt(2) faster than a sphere between fixed neighbours: find
     // the smallest margin that brings the scaled network under the target.
     for (double margin = 1.0; margin < 3.0; margin *= 1.1) {

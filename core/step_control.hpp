@@ -40,8 +40,11 @@ class StepControl {
 
     TimeOptions options_;
     FrequencyEstimator estimator_;
-    double omega_ = 0;         // with the inertia in use [rad/s]
-    double omega_target_ = 0;  // mass scaling: what the scaled network may have [rad/s]
+    double network_ = 0;           // highest frequency of the contacts there are [rad/s]
+    bool caught_governs_ = false;  // a sphere caught between its neighbours could be faster still
+    std::int64_t searches_ = 0;    // neighbour searches when that was found
+    double omega_ = 0;             // with the inertia in use [rad/s]
+    double omega_target_ = 0;      // mass scaling: what the scaled network may have [rad/s]
     double inertia_ratio_ = 1;
     double step_ = 0;
     std::int64_t next_estimate_ = -1;

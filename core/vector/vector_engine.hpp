@@ -41,6 +41,7 @@ class VectorEngine : public Engine {
     std::vector<TouchingContact> touching() const override;
     std::int64_t touching_count() const override;
     std::int64_t candidate_count() const override;
+    std::vector<kernels::Pair> neighbours() const override;
     double resultant_sum() override;
     bool restore(std::int32_t i, std::int32_t j, const Vec3& shear) override;
     bool suspicious() const override { return suspicious_; }

@@ -106,13 +106,47 @@ TEST_P(Frequency, AgreesWithTheDenseEigenvalue) {
             }
 }
 
-TEST_P(Frequency, IsZeroWithoutContactsAndIsolatedFrequencyIsDefined) {
+TEST_P(Frequency, IsZeroWithoutContactsAndThatOfACaughtSphereIsDefined) {
     Simulation sim(scene_of({Ball{}, Ball{.x = Vec3(1, 0, 0), .radius = 0.01}}), table());
     sim.compute_forces();
     EXPECT_EQ(FrequencyEstimator().estimate(sim), 0.0);
     // Two contacts on opposite sides of the lightest sphere: 4 K_n/m.
     const double expected = std::sqrt(4 * 0.01 * test_stiffness / 2 / sphere_mass(0.01));
-    EXPECT_NEAR(isolated_frequency(sim), expected, 1e-12 * expected);
+    EXPECT_NEAR(caught_frequency(sim, 0), expected, 1e-12 * expected);
+}
+
+TEST_P(Frequency, ACaughtSphereIsAsFastAsItsNeighboursAllow) {
+    // A light stiff sphere between two soft heavy ones: K_n (1/m + 1/M) of each contact, which is
+    // less than between two of its own kind. Bands of 1e-12: both are a few operations.
+    const double gap = 1e-6, soft = 1e6, stiff = 1e9, small = 0.005, large = 0.02;
+    const double reach = small + large + gap;
+    Scene scene = scene_of({Ball{.x = Vec3(-reach, 0, 0), .radius = large},
+                            Ball{.x = Vec3(0, 0, 0), .radius = small},
+                            Ball{.x = Vec3(reach, 0, 0), .radius = large}});
+    scene.spheres.normal_stiffness = {soft, stiff, soft};
+    Simulation sim(scene, table());
+    sim.compute_forces();
+    const double kn = 0.5 * (small + large) * soft * stiff / (soft + stiff);
+    const double inverse_masses = 1 / sphere_mass(small) + 1 / sphere_mass(large);
+    const double expected = std::sqrt(2 * kn * inverse_masses);
+    EXPECT_NEAR(caught_frequency(sim, 0), expected, 1e-12 * expected);
+    // Known to be faster than any sphere alone could be: no need to look at neighbours.
+    const double alike = std::sqrt(4 * small * stiff / 2 / sphere_mass(small));
+    EXPECT_NEAR(caught_frequency(sim, 2 * alike), alike, 1e-12 * alike);
+}
+
+TEST_P(Frequency, TheStepSitsNearTheLimitOfTheNetworkAtAnyContrast) {
+    for (double contrast : {1.0, 1e3})
+        for (std::uint64_t k = 0; k < 5; ++k) {
+            Simulation sim(random_packing(k, 0.1, contrast), table());
+            sim.compute_forces();
+            const double limit = 2 / FrequencyEstimator().estimate(sim);
+            StepControl control({});  // safety 0.8
+            const double step = control.next(sim);
+            EXPECT_LE(step, 0.8 * 1.005 * limit) << contrast << " " << k;
+            // What a sphere could do once it is caught between two others costs something.
+            EXPECT_GE(step, 0.5 * limit) << contrast << " " << k;
+        }
 }
 
 /// FCC block of `cells`^3 cubic cells, just touching more than not.
