@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bench/machine.hpp"
+#include "bench/speed_picture.hpp"
 #include "bench/statistics.hpp"
 #include "bench/stressed_sample.hpp"
 #include "core/files/atomic_file.hpp"
@@ -84,11 +85,18 @@ struct Case {
 
 constexpr const char* header =
     "sample,spheres,contacts,isa,precision,threads,ms_per_step,sphere_steps_per_s,contacts_per_s,"
-    "least_traffic_B,triad_B_per_s,ratio_to_floor,list_builds_per_1000_steps,"
-    "searches_per_1000_steps\n";
+    "least_traffic_B,triad_B_per_s,ratio_to_floor,traffic_B,share_of_triad,evaluated_over_contacts,"
+    "list_builds_per_1000_steps,searches_per_1000_steps,resident_B_per_sphere\n";
 
-/// Runs all cases in turns, so that what else the machine does hits them alike; CSV rows.
-std::string measure(std::vector<Case>& cases, int rounds, int steps, double triad) {
+struct Measured {
+    std::string rows;  ///< of the CSV file
+    std::vector<bench::SpeedPoint> points;
+};
+
+/// Runs all cases in turns, so that what else the machine does hits them alike. `resident` is the
+/// process's memory before they were made [B].
+Measured measure(std::vector<Case>& cases, int rounds, int steps, double triad,
+                 std::size_t resident) {
     for (Case& c : cases) c.sample->run(300);  // the jolt of the start dies away
     std::vector<std::int64_t> builds, searches;
     for (const Case& c : cases) {
@@ -97,7 +105,9 @@ std::string measure(std::vector<Case>& cases, int rounds, int steps, double tria
     }
     for (int r = 0; r < rounds; ++r)
         for (Case& c : cases) c.milliseconds.push_back(1e3 * c.sample->run(steps) / steps);
-    std::string rows;
+    const double grown =
+        static_cast<double>(bench::resident_bytes()) - static_cast<double>(resident);
+    Measured measured;
     for (std::size_t k = 0; k < cases.size(); ++k) {
         const Case& c = cases[k];
         const core::Simulation& sim = c.sample->simulation();
@@ -105,17 +115,24 @@ std::string measure(std::vector<Case>& cases, int rounds, int steps, double tria
         const auto spheres = static_cast<double>(sim.size());
         const auto contacts = static_cast<double>(sim.touching_contacts());
         const double traffic = least_traffic(spheres, contacts);
+        const core::StepCost cost = sim.step_cost();
         const double thousands = rounds * steps / 1e3;
-        rows += fmt::format(
-            "{},{},{},{},{},{},{:.4f},{:.4g},{:.4g},{:.4g},{:.4g},{:.2f},{:.1f},{:.1f}\n", c.name,
-            sim.size(), sim.touching_contacts(), c.isa, c.precision, c.threads, ms,
+        const double memory = grown / static_cast<double>(cases.size()) / spheres;
+        measured.points.push_back({c.isa, c.precision, c.threads, spheres, ms, memory});
+        measured.rows += fmt::format(
+            "{},{},{},{},{},{},{:.4f},{:.4g},{:.4g},{:.4g},{:.4g},{:.2f},{:.4g},{:.3f},{:.4f},{:."
+            "1f},"
+            "{:.1f},{:.0f}\n",
+            c.name, sim.size(), sim.touching_contacts(), c.isa, c.precision, c.threads, ms,
             1e3 * spheres / ms, 1e3 * contacts / ms, traffic, triad, ms / (1e3 * traffic / triad),
+            cost.bytes, cost.bytes / (1e-3 * ms) / triad,
+            static_cast<double>(cost.evaluated) / contacts,
             static_cast<double>(sim.list_builds() - builds[k]) / thousands,
-            static_cast<double>(sim.neighbour_searches() - searches[k]) / thousands);
+            static_cast<double>(sim.neighbour_searches() - searches[k]) / thousands, memory);
         fmt::print("{:>10} {:>8} spheres  {:>6} {:>6} {} threads  {:8.3f} ms a step\n", c.name,
                    sim.size(), c.isa, c.precision, c.threads, ms);
     }
-    return rows;
+    return measured;
 }
 
 Case make_case(const std::string& name, const core::Scene& scene,
@@ -138,8 +155,11 @@ const kernels::KernelTable& best() {
 
 void step_rates(const core::Scene& full, const std::filesystem::path& out, int rounds,
                 double triad) {
+    const std::size_t resident = bench::resident_bytes();
     std::vector<Case> cases;
+    cases.push_back(make_case("full", full, kernels::reference_kernels(), 1));
     cases.push_back(make_case("full", full, kernels::reference_kernels(), 2));
+    for (Case& c : cases) c.isa = "reference";
     for (const auto isa : kernels::instruction_sets) {
         if (!kernels::runs_here(isa)) {
             fmt::print("{}: not run, this machine lacks it\n", kernels::name(isa));
@@ -149,7 +169,9 @@ void step_rates(const core::Scene& full, const std::filesystem::path& out, int r
             for (const int threads : {1, 2})
                 cases.push_back(make_case("full", full, *table, threads));
     }
-    core::write_file_atomically(out / "step_rate.csv", header + measure(cases, rounds, 50, triad));
+    const Measured measured = measure(cases, rounds, 50, triad, resident);
+    core::write_file_atomically(out / "step_rate.csv", header + measured.rows);
+    core::write_file_atomically(out / "step_rate.png", bench::rate_picture(measured.points));
 }
 
 /// The sample between walls that stand still, as the peers run it.
@@ -168,15 +190,20 @@ void at_rest(const core::Scene& full) {
 
 void sizes(const core::Scene& full, const std::filesystem::path& out, int rounds, double triad) {
     std::string rows = header;
+    std::vector<bench::SpeedPoint> points;
     const auto add = [&](const std::string& name, const core::Scene& scene) {
+        const std::size_t resident = bench::resident_bytes();
         std::vector<Case> cases;
         cases.push_back(make_case(name, scene, best(), 2));
-        rows += measure(cases, rounds, 50, triad);
+        const Measured measured = measure(cases, rounds, 50, triad, resident);
+        rows += measured.rows;
+        points.push_back(measured.points.front());
     };
     add("2x4x2", bench::part(full, {2, 4, 2}));
     add("6x12x6", full);
     add("12x24x12", bench::mirrored(full, {2, 2, 2}));
     core::write_file_atomically(out / "size.csv", rows);
+    core::write_file_atomically(out / "size.png", bench::size_picture(points));
 }
 
 }  // namespace

@@ -17,6 +17,12 @@ struct TouchingContact {
     Vec3 force;         ///< whole force on i [N]
 };
 
+/// What a step has to do, for those who measure.
+struct StepCost {
+    double bytes = 0;            ///< read and written if nothing stays in cache; 0: unknown [B]
+    std::int64_t evaluated = 0;  ///< contacts evaluated, those of two domains twice [-]
+};
+
 class Engine {
   public:
     explicit Engine(World& world) : world_(world) {}
@@ -65,6 +71,8 @@ class Engine {
     virtual bool suspicious() const = 0;
     virtual void cleared() {}
     virtual std::int64_t list_builds() const = 0;
+    /// Of the step taken last.
+    virtual StepCost step_cost() const { return {0, touching_count()}; }
     /// Neighbour searches so far: some builds choose among known neighbours [-].
     virtual std::int64_t searches() const { return list_builds(); }
 

@@ -85,6 +85,7 @@ class Simulation {
     std::int64_t neighbour_searches() const { return engine_->searches(); }  ///< so far [-]
     /// Pairs of spheres, i < j, that may touch before neighbour_searches() grows; lists must exist.
     std::vector<kernels::Pair> neighbours() const { return engine_->neighbours(); }
+    StepCost step_cost() const { return engine_->step_cost(); }  ///< of the step taken last
     /// Candidates in the lists; those that the engine looks at twice count twice [-].
     std::int64_t candidates() const { return engine_->candidate_count(); }
 

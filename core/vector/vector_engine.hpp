@@ -47,6 +47,7 @@ class VectorEngine : public Engine {
     bool suspicious() const override { return suspicious_; }
     void cleared() override { suspicious_ = false; }
     std::int64_t list_builds() const override { return builds_; }
+    StepCost step_cost() const override;
     std::int64_t searches() const override { return searches_; }
 
   private:
