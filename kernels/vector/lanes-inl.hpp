@@ -94,6 +94,12 @@ struct Lane4 {
     HWY_INLINE Lane3<T> xyz() const { return {x, y, z}; }
 };
 
+/// The blocks u, v, w of one record a lane.
+template <class T>
+struct RecordLanes {
+    Lane4<T> u, v, w;
+};
+
 // Vectors are built from and taken apart into blocks of 128 bits: four floats or two doubles.
 #if HWY_TARGET == HWY_SCALAR
 
@@ -119,11 +125,6 @@ HWY_INLINE void add4(Lane4<T> v, const std::array<T*, 1>& at, std::size_t offset
               at, offset);
 }
 
-/// The three blocks u, v, w of a record.
-template <class T>
-struct RecordLanes {
-    Lane4<T> u, v, w;
-};
 template <class T>
 HWY_INLINE RecordLanes<T> load_records(const SphereRecord<T>* records, const std::int32_t* index) {
     const std::array<const T*, 1> at{records[*index].u};
@@ -261,11 +262,6 @@ HWY_INLINE void add4(Lane4<T> v, const std::array<T*, lanes<T>>& at, std::size_t
     });
 }
 
-/// The blocks u, v, w of one record a lane.
-template <class T>
-struct RecordLanes {
-    Lane4<T> u, v, w;
-};
 /// Loads whole records: every index is read once.
 template <class T>
 HWY_INLINE RecordLanes<T> load_records(const SphereRecord<T>* records, const std::int32_t* index) {
