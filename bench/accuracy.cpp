@@ -55,28 +55,32 @@ std::vector<Setting> axis(Setting start, Value Setting::*member, const std::vect
     return settings;
 }
 
-/// The mixed kernels are crossed in full but for the slowest rate, where only mass scaling varies;
+/// The reference is the slowest test that can be afforded, because the rate is the largest error of
+/// all, with half the default step. That a quarter of the step brings nothing more is seen at the
+/// default rate, in double precision.
+///
+/// The mixed kernels are crossed in full but for the slow rates, where only mass scaling varies;
 /// double precision goes along each axis through the default. The plain reference kernels differ
-/// from the vectors in round-off alone and run once each: the same axes with fewer values, and a
-/// quarter of the step at the default rate.
+/// from the vectors in round-off alone and run once each.
 Plan full_plan(int repeats) {
     Plan plan;
-    plan.reference = {.precision = core::Precision::double_, .safety = 0.2, .strain_rate = 0.05};
+    plan.reference = {.precision = core::Precision::double_, .safety = 0.4, .strain_rate = 0.02};
     const auto add = [&](const std::vector<Setting>& settings, int times) {
         for (const Setting& setting : settings) plan.cases.emplace_back(setting, times);
     };
     const std::vector<double> safeties{0.4, 0.6, 0.8, 0.95}, scalings{1, 2, 4};
+    add({{.strain_rate = 0.02}}, repeats);
     add(axis({.strain_rate = 0.05}, &Setting::mass_scaling, scalings), repeats);
     for (const double rate : {0.1, 0.2, 0.4})
         for (const double scaling : scalings)
             add(axis({.mass_scaling = scaling, .strain_rate = rate}, &Setting::safety, safeties),
                 repeats);
     const Setting wide{.precision = core::Precision::double_};
-    add(axis(wide, &Setting::safety, {0.4, 0.8, 0.95}), repeats);
+    add(axis(wide, &Setting::safety, {0.2, 0.8, 0.95}), repeats);
     add(axis(wide, &Setting::mass_scaling, {2.0, 4.0}), repeats);
     add(axis(wide, &Setting::strain_rate, {0.2, 0.4}), repeats);
     const Setting plain{.reference_kernels = true, .precision = core::Precision::double_};
-    add(axis(plain, &Setting::safety, {0.2, 0.8, 0.95}), 1);
+    add(axis(plain, &Setting::safety, {0.8, 0.95}), 1);
     add(axis(plain, &Setting::mass_scaling, {4.0}), 1);
     add(axis(plain, &Setting::strain_rate, {0.4}), 1);
     return plan;

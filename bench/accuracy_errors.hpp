@@ -2,9 +2,9 @@
 // What the runs of a setting say about its error: bias and scatter told apart.
 //
 // Results of a granular sample are chaotic: two runs that differ by 1e-12 m in the start positions
-// end with peaks a per cent apart. So nothing is compared with a single run. The reference is the
-// mean over an ensemble of disturbed runs with a quarter of the step, real masses, double
-// precision and the slowest rate; its spread is the noise floor.
+// end with peaks some per cent apart. So nothing is compared with a single run. The reference is
+// the mean over an ensemble of disturbed runs with a short step, real masses, double precision and
+// the slowest rate; its spread is the noise floor.
 
 #include <span>
 #include <string>

@@ -13,13 +13,12 @@ namespace {
 
 namespace colour = triaxial::report::colour;
 
-constexpr double lowest_error = 0.3;  // lower end of the axis; smaller errors are drawn there [%]
-
 std::string_view rate_colour(double rate) {
-    return rate < 0.075  ? colour::muted
-           : rate < 0.15 ? colour::main
-           : rate < 0.3  ? colour::soft
-                         : colour::contrast;
+    return rate < 0.03    ? colour::ink
+           : rate < 0.075 ? colour::muted
+           : rate < 0.15  ? colour::main
+           : rate < 0.3   ? colour::soft
+                          : colour::contrast;
 }
 
 /// gnuplot's point type: circle, triangle, square by mass scaling; filled in mixed precision, open
@@ -29,6 +28,11 @@ int point_type(const Setting& s) {
     const int filled = s.mass_scaling < 1.5 ? 7 : s.mass_scaling < 3 ? 9 : 5;
     return s.precision == core::Precision::mixed ? filled : filled - 1;
 }
+
+struct Axes {
+    double first, last;      ///< time [s]
+    double lowest, highest;  ///< error; smaller ones are drawn on the axis [%]
+};
 
 struct Point {
     double seconds, error;
@@ -45,7 +49,7 @@ std::vector<Point> pareto_front(std::vector<Point> points) {
 
 /// Columns: time, error, point type, colour, a line a case; a blank line between groups that a line
 /// connects: cases that differ in safety alone.
-std::string points_data(std::span<const Case> cases, Deviation Case::*result) {
+std::string points_data(std::span<const Case> cases, Deviation Case::*result, double lowest) {
     std::string rows;
     const Case* before = nullptr;
     for (const Case& c : cases) {
@@ -55,24 +59,24 @@ std::string points_data(std::span<const Case> cases, Deviation Case::*result) {
             s.safety = c.setting.safety;
             if (s != c.setting) rows += "\n";
         }
-        rows += fmt::format("{} {} {} 0x{}\n", c.cpu_seconds,
-                            std::max((c.*result).one_run, lowest_error), point_type(c.setting),
-                            rate_colour(c.setting.strain_rate).substr(1));
+        rows += fmt::format("{} {} {} 0x{}\n", c.cpu_seconds, std::max((c.*result).one_run, lowest),
+                            point_type(c.setting), rate_colour(c.setting.strain_rate).substr(1));
         before = &c;
     }
     return rows;
 }
 
-/// The front as stairs that go on to the right edge.
-std::string front_data(std::span<const Case> cases, Deviation Case::*result, double last) {
+/// The front as stairs that go on to the right edge. What lies below the floor lies there by chance
+/// and counts as on it.
+std::string front_data(const Panel& panel, Deviation Case::*result, double floor, double last) {
     std::vector<Point> points;
-    for (const Case& c : cases)
-        if (!c.runs.empty())
-            points.push_back({c.cpu_seconds, std::max((c.*result).one_run, lowest_error)});
+    for (const Case& c : panel.cases)
+        if (!c.runs.empty() && c.setting != panel.noise->setting)
+            points.push_back({c.cpu_seconds, std::max((c.*result).one_run, floor)});
     std::string rows;
     const std::vector<Point> front = pareto_front(std::move(points));
     for (const Point& p : front) rows += fmt::format("{} {}\n", p.seconds, p.error);
-    return rows + fmt::format("{} {}\n", last, front.back().error);
+    return front.empty() ? rows : rows + fmt::format("{} {}\n", last, front.back().error);
 }
 
 const Case* find(std::span<const Case> cases, const Setting& setting) {
@@ -81,18 +85,13 @@ const Case* find(std::span<const Case> cases, const Setting& setting) {
     return nullptr;
 }
 
-struct Axes {
-    double first, last;  ///< time [s]
-    double top;          ///< error [%]
-};
-
 /// One panel of the picture, between those parts of the screen.
 std::string panel_script(const triaxial::report::Gnuplot& gnuplot, const Panel& panel,
                          const std::string& name, Deviation Case::*result, const Axes& axes,
                          std::array<double, 4> screen, bool left, bool bottom) {
-    gnuplot.data(name + ".dat", points_data(panel.cases, result));
-    gnuplot.data(name + "_front.dat", front_data(panel.cases, result, axes.last));
     const double floor = (panel.noise->*result).scatter;
+    gnuplot.data(name + ".dat", points_data(panel.cases, result, axes.lowest));
+    gnuplot.data(name + "_front.dat", front_data(panel, result, floor, axes.last));
     std::string script = fmt::format(
         R"(set lmargin at screen {}
 set rmargin at screen {}
@@ -104,7 +103,7 @@ unset label
 unset arrow
 unset object
 set object 1 rectangle from {first},{lowest} to {last},{floor} fc rgb '{grid}' fs solid noborder behind
-set label 1 'scatter of one reference run: {floor:.2f} %' at graph 0.98, first {floor} right offset 0,-0.8 tc rgb '{muted}' font ',14'
+set label 1 'noise floor: scatter of one reference run, {floor:.1f} %' at graph 0.02, graph 0.04 left tc rgb '{muted}'
 set label 2 '{series}: {what}' at graph 0.98, graph 0.95 right tc rgb '{ink}'
 set xlabel '{xlabel}'
 set ylabel '{ylabel}' offset 1,0
@@ -112,19 +111,22 @@ set format x '{xformat}'
 set format y '{yformat}'
 )",
         screen[0], screen[1], screen[2], screen[3], fmt::arg("first", axes.first),
-        fmt::arg("last", axes.last), fmt::arg("lowest", lowest_error), fmt::arg("top", axes.top),
-        fmt::arg("floor", std::max(floor, 1.05 * lowest_error)), fmt::arg("grid", colour::grid),
-        fmt::arg("muted", colour::muted), fmt::arg("ink", colour::ink),
-        fmt::arg("series", panel.series->name),
+        fmt::arg("last", axes.last), fmt::arg("lowest", axes.lowest), fmt::arg("top", axes.highest),
+        fmt::arg("floor", floor), fmt::arg("grid", colour::grid), fmt::arg("muted", colour::muted),
+        fmt::arg("ink", colour::ink), fmt::arg("series", panel.series->name),
         fmt::arg("what", result == &Case::peak ? "peak deviator stress" : "{/:Italic E}_{50}"),
         fmt::arg("xlabel", bottom ? "Time of a realization on one core (s)" : ""),
         fmt::arg("ylabel", left ? "Error of one run (%)" : ""),
         fmt::arg("xformat", bottom ? "%g" : ""), fmt::arg("yformat", left ? "%g" : ""));
-    if (const Case* c = find(panel.cases, default_setting))
+    script += fmt::format("set label 3 'reference' at {},{} center offset 0,-1 tc rgb '{}' front\n",
+                          panel.noise->cpu_seconds, (panel.noise->*result).one_run, colour::muted);
+    if (const Case* c =
+            find(panel.cases, default_setting))  // faster runs do worse: room below left
         script += fmt::format(
-            "set label 3 'default' at {0},{1} right offset -1.2,-1.2 tc rgb '{2}' front\n"
-            "set label 4 '' at {0},{1} point pt 6 ps 3.4 lw 2.5 lc rgb '{2}' front\n",
-            c->cpu_seconds, std::max((c->*result).one_run, lowest_error), colour::ink);
+            "set label 4 'default' at graph 0.03,0.33 left tc rgb '{2}' front\n"
+            "set arrow 1 from graph 0.155,0.345 to {0},{1} nohead lw 1.2 lc rgb '{2}' back\n"
+            "set label 5 '' at {0},{1} point pt 6 ps 3.4 lw 2.5 lc rgb '{2}' front\n",
+            c->cpu_seconds, std::max((c->*result).one_run, axes.lowest), colour::ink);
     script += fmt::format(
         "plot '{0}_front.dat' using 1:2 with steps lw 2 dt (6,4) lc rgb '{1}' notitle, \\\n"
         "     '{0}.dat' using 1:2:4 with lines lw 1 lc rgb variable notitle, \\\n"
@@ -142,18 +144,20 @@ std::string legend_script() {
         std::string_view colour;
         std::string_view text;
     };
-    const std::array<Entry, 11> entries{{
-        {0.02, 0.75, 7, rate_colour(0.05), "0.05/s"},
-        {0.12, 0.75, 7, rate_colour(0.1), "0.1/s"},
-        {0.22, 0.75, 7, rate_colour(0.2), "0.2/s"},
-        {0.32, 0.75, 7, rate_colour(0.4), "0.4/s"},
-        {0.50, 0.75, 7, colour::ink, "real masses"},
-        {0.65, 0.75, 9, colour::ink, "mass scaling 2"},
-        {0.82, 0.75, 5, colour::ink, "mass scaling 4"},
+    const std::array<Entry, 13> entries{{
+        {0.02, 0.75, 7, rate_colour(0.02), "rate 0.02/s"},
+        {0.15, 0.75, 7, rate_colour(0.05), "0.05/s"},
+        {0.235, 0.75, 7, rate_colour(0.1), "0.1/s"},
+        {0.31, 0.75, 7, rate_colour(0.2), "0.2/s"},
+        {0.385, 0.75, 7, rate_colour(0.4), "0.4/s"},
+        {0.45, 0.75, 0, colour::ink, "lines: other safety, 0.2 to 0.95 of the limit"},
+        {0.88, 0.75, 0, colour::ink, "Pareto front"},
         {0.02, 0.25, 7, colour::ink, "mixed precision"},
         {0.19, 0.25, 6, colour::ink, "double precision"},
-        {0.37, 0.25, 2, colour::ink, "reference kernels"},
-        {0.57, 0.25, 0, colour::ink, "lines: safety 0.4, 0.6, 0.8, 0.95 of the stable step"},
+        {0.365, 0.25, 2, colour::ink, "reference kernels"},
+        {0.55, 0.25, 7, colour::ink, "real masses"},
+        {0.69, 0.25, 9, colour::ink, "mass scaling 2"},
+        {0.85, 0.25, 5, colour::ink, "mass scaling 4"},
     }};
     std::string rows, labels;
     int tag = 10;
@@ -169,20 +173,24 @@ std::string legend_script() {
         "set bmargin at screen 0.005\nset tmargin at screen 0.075\n"
         "unset logscale\nunset border\nunset tics\nunset grid\nunset label\nunset object\n"
         "unset arrow\nset xlabel ''\nset ylabel ''\nset xrange [0:1]\nset yrange [0:1]\n{}"
+        "set arrow 1 from 0.845,0.75 to 0.885,0.75 nohead lw 2 dt (6,4) lc rgb '{}'\n"
         "plot $legend using 1:2:(1.5):3:4 with points ps variable pt variable lw 1.6 lc rgb "
         "variable notitle\n",
-        rows, labels);
+        rows, labels, colour::muted);
 }
 
 Axes axes_of(std::span<const Panel> panels) {
-    Axes axes{.first = 1e9, .last = 0, .top = 1};
-    for (const Panel& panel : panels)
+    Axes axes{.first = 1e9, .last = 0, .lowest = 1e9, .highest = 0};
+    for (const Panel& panel : panels) {
+        for (const Deviation& noise : {panel.noise->peak, panel.noise->E50})
+            axes.lowest = std::min(axes.lowest, std::max(0.4 * noise.scatter, 0.01));
         for (const Case& c : panel.cases) {
             if (c.runs.empty()) continue;
             axes.first = std::min(axes.first, c.cpu_seconds / 1.25);
             axes.last = std::max(axes.last, c.cpu_seconds * 1.25);
-            axes.top = std::max({axes.top, 1.6 * c.peak.one_run, 1.6 * c.E50.one_run});
+            axes.highest = std::max({axes.highest, 1.6 * c.peak.one_run, 1.6 * c.E50.one_run});
         }
+    }
     return axes;
 }
 
