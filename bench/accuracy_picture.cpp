@@ -118,8 +118,9 @@ set format y '{yformat}'
         fmt::arg("xlabel", bottom ? "Time of a realization on one core (s)" : ""),
         fmt::arg("ylabel", left ? "Error of one run (%)" : ""),
         fmt::arg("xformat", bottom ? "%g" : ""), fmt::arg("yformat", left ? "%g" : ""));
-    script += fmt::format("set label 3 'reference' at {},{} center offset 0,-1 tc rgb '{}' front\n",
-                          panel.noise->cpu_seconds, (panel.noise->*result).one_run, colour::muted);
+    script +=
+        fmt::format("set label 3 'reference' at {},{} right offset 1.5,-1 tc rgb '{}' front\n",
+                    panel.noise->cpu_seconds, (panel.noise->*result).one_run, colour::muted);
     if (const Case* c =
             find(panel.cases, default_setting))  // faster runs do worse: room below left
         script += fmt::format(
