@@ -13,9 +13,11 @@ constexpr double rest = 1e-3;              // unbalanced force ratio [-]
 constexpr double stress_tolerance = 2e-3;  // of each wall [-]
 constexpr double most_strain_rate = 0.5;   // cap of the walls' speed over the half dimension [1/s]
 // Loose spheres that bounce in their pores lose little by local damping alone. Once the stress is
-// nearly there, a look (20 steps) takes this share of all velocities away.
+// nearly there, a look (20 steps) multiplies all velocities by this factor; smaller steps, of which
+// as much motion takes more, by less.
 constexpr double relaxation_begins = 0.02;  // largest stress error of a wall [-]
-constexpr double relaxation = 0.85;         // factor on the velocities [-]
+constexpr double relaxation = 0.85;         // at the step below [-]
+constexpr double relaxation_step = 0.8;     // of the stability limit [-]
 constexpr std::int64_t most_steps = 200000;
 
 }  // namespace
@@ -61,7 +63,11 @@ IsotropicResult compress_isotropically(core::Driver& driver, double stress) {
             if (!look) return;
             result.stress_error = worst;
             result.unbalanced_force_ratio = simulation.unbalanced_force_ratio();
-            if (worst < relaxation_begins) simulation.scale_velocities(relaxation);
+            if (worst < relaxation_begins) {
+                const double limit = driver.control().limit();
+                const double share = limit > 0 ? step / limit / relaxation_step : 1.0;
+                simulation.scale_velocities(std::pow(relaxation, share));
+            }
             reached = worst < stress_tolerance && result.unbalanced_force_ratio < rest;
         });
         if (result.steps % 100 == 0)

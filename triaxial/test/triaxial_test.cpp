@@ -16,7 +16,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// I = strain rate * d * sqrt(rho/p), d the mean diameter by volume.
+/// I = strain rate * d * sqrt(rho/p), d the mean diameter by volume, rho of the real masses.
 double inertial_number(const core::ParticleStore& s, const Config& config) {
     double cubes = 0, fourths = 0;
     for (double r : s.radius) {
@@ -74,6 +74,7 @@ TestResult run_test(core::Simulation& simulation, const Config& config, core::Mo
     result.lateral_rms_error = shear.lateral_rms_error();
     result.lateral_max_error = shear.lateral_max_error();
     result.inertia_ratio = driver.control().inertia_ratio();
+    result.inertial_number *= std::sqrt(result.inertia_ratio);
     result.results = evaluate_curve(result.curve, config.triaxial.confining_stress);
     for (const CurvePoint& p : result.curve) {
         if (p.deviator_stress > 0.5 * result.results.peak_deviator_stress) break;

@@ -34,7 +34,7 @@ struct TestResult {
     double lateral_rms_error = 0;       ///< of both lateral stresses over all steps of shear [-]
     double lateral_max_error = 0;       ///< at any recorded point after 0.1 % of strain [-]
     double lowest_start_ratio = 0;      ///< smallest q over sigma_3 up to half the peak [-]
-    double inertial_number = 0;         ///< of the shear rate [-]
+    double inertial_number = 0;         ///< of the shear rate and the inertia in use [-]
     double isotropic_unbalanced = 0;    ///< at the end of the isotropic stage [-]
     double isotropic_stress_error = 0;  ///< largest of the six walls then [-]
     double isotropic_seconds = 0, shear_seconds = 0;  ///< wall time [s]
