@@ -1,5 +1,6 @@
 #include "bench/machine.hpp"
 
+#include <malloc.h>
 #include <omp.h>
 
 #include <algorithm>
@@ -45,6 +46,7 @@ double triad_bandwidth(std::size_t bytes) {
 }
 
 std::size_t resident_bytes() {
+    malloc_trim(0);  // what was freed counts no more
     std::ifstream status("/proc/self/statm");
     std::size_t total = 0, resident = 0;
     return status >> total >> resident ? resident * 4096 : 0;

@@ -6,8 +6,11 @@
 namespace grainfield::core {
 namespace {
 
-/// Spheres of a domain: with their contacts they fill about half of a 1 MB cache.
-constexpr std::size_t domain_size = 5000;
+/// Most spheres of a domain: with their contacts they fill most of a 1 MB cache. A small sample has
+/// four domains or more, so that threads share the work, but none so small that most is border.
+std::size_t domain_size(std::size_t spheres) {
+    return std::clamp<std::size_t>(spheres / 4, 1000, 5000);
+}
 
 template <class T>
 void assign3(T (&to)[3], const Vec3& from) {
@@ -25,7 +28,7 @@ VectorEngine<T>::VectorEngine(World& world, const kernels::VectorKernels<T>& ker
     : Engine(world), kernels_(kernels) {
     const ParticleStore& s = world.spheres();
     const std::size_t n = s.size();
-    order_ = order_in_space(s.position, domain_size);
+    order_ = order_in_space(s.position, domain_size(n));
     slot_of_.resize(n);
     built_.position.resize(n);
     built_.radius.resize(n);
