@@ -23,6 +23,11 @@ constexpr double bout = 0.25;                 // of shaking, between two looks a
 constexpr double lid_stress_share = 1.0;      // lid stress over the block's own weight's [-]
 constexpr double stalled = 2e-3;              // a bout that lowers the lid less, of b_y [-]
 constexpr int patience = 3;  // stalled bouts in a row before the friction is lowered [-]
+// Without friction a block that is jammed comes loose again if it is shaken otherwise: bouts of
+// other strength and pace, many of them, before the porosity is given up.
+constexpr int last_patience = 80;                 // stalled bouts in a row [-]
+constexpr double weakest = 0.3, strongest = 3.0;  // share of gravity [-]
+constexpr double slowest = 10.0, fastest = 25.0;  // [1/s]
 constexpr double friction_factor = 0.7;      // the friction angle goes down by this when stalled
 constexpr double lowest_friction = 2e-3;     // below this: none [rad]
 constexpr double porosity_tolerance = 2e-3;  // of the block [-]
@@ -80,7 +85,8 @@ class BlockPacker {
         simulation_.compute_forces(true);
     }
 
-    /// Shakes for a bout with the lid pressing lightly; the lid never goes below b_y.
+    /// Shakes for a bout with the lid pressing lightly; the lid never goes below b_y. Without
+    /// friction strength and pace differ from bout to bout.
     void shake(double friction_angle) {
         simulation_.set_friction_angle(friction_angle);
         const double area = options_.block.x() * options_.block.z();
@@ -88,11 +94,15 @@ class BlockPacker {
         const double start = simulation_.time();
         const double phase_x = 2 * std::numbers::pi * random_.uniform(0, bouts_);
         const double phase_z = 2 * std::numbers::pi * random_.uniform(1, bouts_);
+        double acceleration = shaking_acceleration, frequency = shaking_frequency;
+        if (friction_angle == 0.0) {
+            acceleration = weakest + (strongest - weakest) * random_.uniform(2, bouts_);
+            frequency = slowest + (fastest - slowest) * random_.uniform(3, bouts_);
+        }
         ++bouts_;
         while (simulation_.time() < start + bout) {
-            const double angle =
-                2 * std::numbers::pi * shaking_frequency * (simulation_.time() - start);
-            const double a = shaking_acceleration * options_.gravity;
+            const double angle = 2 * std::numbers::pi * frequency * (simulation_.time() - start);
+            const double a = acceleration * options_.gravity;
             simulation_.set_gravity(gravity() + Vec3(a * std::sin(angle + phase_x),
                                                      0.5 * a * std::sin(2 * angle),
                                                      a * std::sin(angle + phase_z)));
@@ -217,15 +227,14 @@ Block pack_block(const PackingOptions& options, const Grading& grading, const Ma
             fmt::format("porosity {:.4f}, friction {:.3f} rad", packer.porosity(now), friction));
         if (now > options.block.y()) {
             stalled_bouts = before - now < stalled * options.block.y() ? stalled_bouts + 1 : 0;
-            if (stalled_bouts == patience) {
+            if (stalled_bouts >= patience && friction > 0.0) {
                 stalled_bouts = 0;
-                if (friction == 0.0)
-                    throw InputError(
-                        fmt::format("packing.porosity = {:g}: cannot be reached with this grading "
-                                    "and block; shaking without "
-                                    "friction ended at {:.4f}",
-                                    options.porosity, packer.porosity(now)));
                 lower_friction();
+            } else if (stalled_bouts >= last_patience) {
+                throw InputError(
+                    fmt::format("packing.porosity = {:g}: cannot be reached with this grading and "
+                                "block; shaking without friction ended at {:.4f}",
+                                options.porosity, packer.porosity(now)));
             }
             continue;
         }
