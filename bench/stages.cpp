@@ -11,6 +11,7 @@
 #include "core/frequency.hpp"
 #include "core/neighbour_search.hpp"
 #include "core/random.hpp"
+#include "core/servo.hpp"
 #include "core/simulation.hpp"
 #include "kernels/vector/vector_tables.hpp"
 #include "randomfield/block_field.hpp"
@@ -132,6 +133,18 @@ void frequency_estimate(benchmark::State& state) {
     report_rates(state, simulation);
 }
 BENCHMARK(frequency_estimate)->Arg(33)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void servos(benchmark::State& state) {
+    core::Simulation simulation(disordered_lattice(10), kernels::reference_kernels());  // six walls
+    simulation.compute_forces();
+    std::vector<core::WallServo> six;
+    for (std::size_t w = 0; w < 6; ++w)
+        six.emplace_back(w, core::WallServo::Options{.stress = 100e3, .max_speed = 0.1});
+    for (auto _ : state)
+        for (core::WallServo& servo : six)
+            benchmark::DoNotOptimize(servo.steer(simulation, 1.0, 3e-5));
+}
+BENCHMARK(servos)->Unit(benchmark::kNanosecond);
 
 randomfield::FieldOptions stiffness_field() {
     randomfield::FieldOptions options;
