@@ -64,8 +64,11 @@ void CandidateList<T>::build(const Proposals<T>& proposals, std::int32_t idle,
         a[k] = proposals.a[p];
         b[k] = proposals.b[p];
         separation[k] = proposals.separation[p];
-        history[k] = carried.history[p];
-        if (carried.touched[p] != 0) set_touching(k);
+        // Beyond the first stretch a pair is apart by now: what it carried is gone, and nobody
+        // would look at it before it is in play.
+        const bool near = k < begin[1];
+        history[k] = near ? carried.history[p] : kernels::ContactHistory<T>{};
+        if (near && carried.touched[p] != 0) set_touching(k);
     }
     for (std::size_t k = count(); k < size; ++k) {
         a[k] = b[k] = idle;

@@ -57,8 +57,8 @@ struct CandidateList {
             static_cast<std::uint16_t>(1u << (k % kernels::most_lanes));
     }
     /// Replaces the list by those proposals that are candidates. A contact that touched keeps its
-    /// history if its proposal is there again; padding gets the record `idle`. `carried` is memory
-    /// to work in.
+    /// history if its proposal is there again, in the first stretch; padding gets the record
+    /// `idle`. `carried` is memory to work in.
     void build(const Proposals<T>& proposals, std::int32_t idle, CarriedHistory<T>& carried);
     /// Gives proposals other numbers: that of k becomes number[k], negative if it is gone.
     void renumber(std::span<const std::int32_t> number);
