@@ -86,7 +86,8 @@ struct Case {
 constexpr const char* header =
     "sample,spheres,contacts,isa,precision,threads,ms_per_step,sphere_steps_per_s,contacts_per_s,"
     "least_traffic_B,triad_B_per_s,ratio_to_floor,traffic_B,share_of_triad,evaluated_over_contacts,"
-    "list_builds_per_1000_steps,searches_per_1000_steps,resident_B_per_sphere\n";
+    "list_builds_per_1000_steps,searches_per_1000_steps,renewals_per_1000_steps,resident_B_per_"
+    "sphere\n";
 
 struct Measured {
     std::string rows;  ///< of the CSV file
@@ -98,10 +99,11 @@ struct Measured {
 Measured measure(std::vector<Case>& cases, int rounds, int steps, double triad,
                  std::size_t resident) {
     for (Case& c : cases) c.sample->run(300);  // the jolt of the start dies away
-    std::vector<std::int64_t> builds, searches;
+    std::vector<std::int64_t> builds, searches, renewals;
     for (const Case& c : cases) {
         builds.push_back(c.sample->simulation().list_builds());
         searches.push_back(c.sample->simulation().neighbour_searches());
+        renewals.push_back(c.sample->simulation().neighbour_renewals());
     }
     for (int r = 0; r < rounds; ++r)
         for (Case& c : cases) c.milliseconds.push_back(1e3 * c.sample->run(steps) / steps);
@@ -122,13 +124,14 @@ Measured measure(std::vector<Case>& cases, int rounds, int steps, double triad,
         measured.rows += fmt::format(
             "{},{},{},{},{},{},{:.4f},{:.4g},{:.4g},{:.4g},{:.4g},{:.2f},{:.4g},{:.3f},{:.4f},{:."
             "1f},"
-            "{:.1f},{:.0f}\n",
+            "{:.1f},{:.1f},{:.0f}\n",
             c.name, sim.size(), sim.touching_contacts(), c.isa, c.precision, c.threads, ms,
             1e3 * spheres / ms, 1e3 * contacts / ms, traffic, triad, ms / (1e3 * traffic / triad),
             cost.bytes, cost.bytes / (1e-3 * ms) / triad,
             static_cast<double>(cost.evaluated) / contacts,
             static_cast<double>(sim.list_builds() - builds[k]) / thousands,
-            static_cast<double>(sim.neighbour_searches() - searches[k]) / thousands, memory);
+            static_cast<double>(sim.neighbour_searches() - searches[k]) / thousands,
+            static_cast<double>(sim.neighbour_renewals() - renewals[k]) / thousands, memory);
         fmt::print("{:>10} {:>8} spheres  {:>6} {:>6} {} threads  {:8.3f} ms a step\n", c.name,
                    sim.size(), c.isa, c.precision, c.threads, ms);
     }

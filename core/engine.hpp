@@ -75,6 +75,8 @@ class Engine {
     virtual StepCost step_cost() const { return {0, touching_count()}; }
     /// Neighbour searches so far: some builds choose among known neighbours [-].
     virtual std::int64_t searches() const { return list_builds(); }
+    /// Searches so far for the neighbours of a few spheres alone [-].
+    virtual std::int64_t renewals() const { return 0; }
 
   protected:
     World& world_;

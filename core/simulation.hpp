@@ -83,7 +83,9 @@ class Simulation {
     void rebuild_lists() { engine_->invalidate_lists(); }
     std::int64_t list_builds() const { return engine_->list_builds(); }      ///< so far [-]
     std::int64_t neighbour_searches() const { return engine_->searches(); }  ///< so far [-]
-    /// Pairs of spheres, i < j, that may touch before neighbour_searches() grows; lists must exist.
+    /// Searches for the neighbours of a few spheres alone, so far [-].
+    std::int64_t neighbour_renewals() const { return engine_->renewals(); }
+    /// Pairs of spheres, i < j, that may touch before one of these two grows; lists must exist.
     std::vector<kernels::Pair> neighbours() const { return engine_->neighbours(); }
     StepCost step_cost() const { return engine_->step_cost(); }  ///< of the step taken last
     /// Candidates in the lists; those that the engine looks at twice count twice [-].

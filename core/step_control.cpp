@@ -17,6 +17,11 @@ constexpr int full_rounds = 5;                             // of Lanczos, from s
 constexpr int update_rounds = 1;                           // starting from the last mode
 constexpr int full_iterations = 8, update_iterations = 5;  // a round
 
+/// Grows whenever there are other neighbours.
+std::int64_t searches(const Simulation& simulation) {
+    return simulation.neighbour_searches() + simulation.neighbour_renewals();
+}
+
 }  // namespace
 
 double StepControl::frequency(const Simulation& simulation, int rounds) {
@@ -24,7 +29,7 @@ double StepControl::frequency(const Simulation& simulation, int rounds) {
                                    rounds == full_rounds ? full_iterations : update_iterations);
     const double caught = caught_frequency(simulation, network_);
     caught_governs_ = caught > network_;
-    searches_ = simulation.neighbour_searches();
+    searches_ = searches(simulation);
     return std::max(network_, caught);
 }
 
@@ -36,10 +41,10 @@ double StepControl::next(Simulation& simulation) {
         omega_ = frequency(simulation, first ? full_rounds : update_rounds);
         if (scaled && (first || omega_ > 1.05 * omega_target_)) scale_masses(simulation);
         next_estimate_ = simulation.steps() + estimate_interval(simulation.size());
-    } else if (caught_governs_ && searches_ != simulation.neighbour_searches()) {
+    } else if (caught_governs_ && searches_ != searches(simulation)) {
         // Other neighbours than those that the bound was found for.
         omega_ = std::max(network_, caught_frequency(simulation, network_));
-        searches_ = simulation.neighbour_searches();
+        searches_ = searches(simulation);
     } else {
         return step_;
     }

@@ -62,6 +62,32 @@ void set_neighbours(Domain<T>& domain, std::span<const kernels::Pair> pairs,
         for (int a = 0; a < 3; ++a) s.x[a] = static_cast<T>(branch[a]);
         s.gap = static_cast<T>(state.radius[i] + state.radius[j] - branch.norm());
     }
+    domain.neighbours_are_new = true;
+}
+
+template <class T>
+void exchange_neighbours(Domain<T>& domain, std::span<const std::int32_t> slots,
+                         std::span<const kernels::Pair> pairs, const BuiltState& state) {
+    const auto renewed = [&](std::int32_t slot) {
+        return std::binary_search(slots.begin(), slots.end(), slot);
+    };
+    std::vector<kernels::Pair> kept, added;
+    for (const kernels::Pair& pair : pairs)
+        if (domain.owns(pair.i) || domain.owns(pair.j)) added.push_back(pair);
+    const bool known = std::any_of(slots.begin(), slots.end(), [&](std::int32_t slot) {
+        return domain.owns(slot) ||
+               std::binary_search(domain.ghost_slots.begin(), domain.ghost_slots.end(), slot);
+    });
+    if (added.empty() && !known) return;
+    kept.reserve(domain.neighbours.count);
+    for (std::size_t k = 0; k < domain.neighbours.count; ++k) {
+        const std::int32_t i = domain.slot(domain.neighbours.a[k]);
+        const std::int32_t j = domain.slot(domain.neighbours.b[k]);
+        if (!renewed(i) && !renewed(j)) kept.push_back({i, j});
+    }
+    std::vector<kernels::Pair> all(kept.size() + added.size());
+    std::merge(kept.begin(), kept.end(), added.begin(), added.end(), all.begin());
+    set_neighbours(domain, all, state);
 }
 
 template <class T>
@@ -101,6 +127,10 @@ template struct Domain<float>;
 template struct Domain<double>;
 template void set_neighbours(Domain<float>&, std::span<const kernels::Pair>, const BuiltState&);
 template void set_neighbours(Domain<double>&, std::span<const kernels::Pair>, const BuiltState&);
+template void exchange_neighbours(Domain<float>&, std::span<const std::int32_t>,
+                                  std::span<const kernels::Pair>, const BuiltState&);
+template void exchange_neighbours(Domain<double>&, std::span<const std::int32_t>,
+                                  std::span<const kernels::Pair>, const BuiltState&);
 template void build_wall_lists(Domain<float>&, const BuiltState&, std::span<const Wall>,
                                ListScratch<float>&);
 template void build_wall_lists(Domain<double>&, const BuiltState&, std::span<const Wall>,

@@ -42,8 +42,10 @@ struct Domain {
     kernels::PassResult pass;
     std::vector<kernels::WallLoad> wall_loads;  ///< one a wall of the scene
     kernels::MoveResult motion;
-    Box centres;               ///< of its own spheres when the lists were built [m]
-    double largest_reach = 0;  ///< of its own spheres: radius and reserve [m]
+    Box centres;                      ///< of its own spheres when the lists were built [m]
+    double largest_reach = 0;         ///< of its own spheres: radius and reserve [m]
+    double reach_per_reserve = 0;     ///< the largest (radius + reserve)/reserve [-]
+    bool neighbours_are_new = false;  ///< since the last list build
 
     std::size_t ghost_begin() const { return kernels::padded(own); }
     std::int32_t idle() const { return static_cast<std::int32_t>(records.size() - 1); }
@@ -81,6 +83,13 @@ struct ListScratch {
 template <class T>
 void set_neighbours(Domain<T>& domain, std::span<const kernels::Pair> pairs,
                     const BuiltState& state);
+
+/// Replaces the pairs of the spheres `slots` (ascending) by those of `pairs`, which are theirs in
+/// all domains, in the order of set_neighbours(). A domain that has nothing to do with these
+/// spheres stays as it is.
+template <class T>
+void exchange_neighbours(Domain<T>& domain, std::span<const std::int32_t> slots,
+                         std::span<const kernels::Pair> pairs, const BuiltState& state);
 
 /// Chooses the candidates of every wall; contacts that touch keep their history.
 template <class T>

@@ -293,6 +293,7 @@ kernels::WallPlane<T> VectorEngine<T>::wall_plane(std::size_t wall) const {
 
 #include "core/vector/vector_contacts.inc"
 #include "core/vector/vector_lists.inc"
+#include "core/vector/vector_search.inc"
 
 namespace grainfield::core {
 

@@ -49,6 +49,7 @@ class VectorEngine : public Engine {
     std::int64_t list_builds() const override { return builds_; }
     StepCost step_cost() const override;
     std::int64_t searches() const override { return searches_; }
+    std::int64_t renewals() const override { return renewals_; }
 
   private:
     // The pass over the domains: forces, motion, or both.
@@ -66,19 +67,40 @@ class VectorEngine : public Engine {
     kernels::MoveParameters<T> move_parameters(double step) const;
     kernels::WallPlane<T> wall_plane(std::size_t wall) const;
 
-    // Lists (vector_lists.cpp).
+    struct ReserveRules {
+        double base, most, least;         // of the lists [m]
+        double search_base, search_most;  // of the search [m]
+        kernels::AffineMotion rate;       // of the box [1/s]
+        kernels::AffineMotion since;      // the search
+        double strain = 0;                // the largest since the search [-]
+    };
+    enum class Left { nothing, little, enough };  // of the search's reserve
+    struct Shortage {
+        std::vector<std::int32_t> exhausted;  // slots of spheres that need other neighbours
+        std::vector<std::int32_t> scarce;     // and of those, too, that soon will
+    };
+
+    // Lists (vector_lists.inc).
     double used_reserves() const;
     void rebuild();
     void fix_positions();
     void forget_displacements();
     void build_lists();
     void name_lost_sphere(const Domain<T>& domain) const;
-    bool choose_reserves();
-    void find_neighbours();
+    ReserveRules reserve_rules() const;
+    Left choose_reserve(Domain<T>& domain, std::size_t k, const ReserveRules& rules);
+    Shortage choose_reserves(const ReserveRules& rules);
     double foreseen_way(const Domain<T>& domain, std::size_t k, double steps,
                         const kernels::AffineMotion& rate) const;
     kernels::AffineMotion affine_rate() const;
     kernels::AffineMotion affine_motion(double ahead) const;
+
+    // The search (vector_search.inc).
+    double search_reserve(const Domain<T>& domain, std::size_t k, const ReserveRules& rules) const;
+    void find_neighbours();
+    void find_homes();
+    bool renew_neighbours(const Shortage& shortage);
+    std::vector<kernels::Pair> pairs_of(std::int32_t slot) const;
 
     Vec3 present_position(std::size_t slot) const;
     std::size_t domain_of(std::int32_t slot) const;
@@ -96,6 +118,7 @@ class VectorEngine : public Engine {
     struct {
         Vec3Column position;      // centres at the last search, by slot [m]
         Column<double> reserve;   // by slot [m]
+        std::vector<Box> boxes;   // of each domain: what its spheres could reach [m]
         std::vector<Vec3> walls;  // their points [m]
     } searched_;
     Vec3 middle_ = Vec3::Zero(), sample_size_ = Vec3::Zero();  // of the spheres' centres [m]
@@ -103,10 +126,10 @@ class VectorEngine : public Engine {
     std::vector<Vec3> built_walls_;                            // their points [m]
     kernels::AffineMotion affine_;  // of the box, as the last motion foresaw it
     double used_reserve_ = 0;       // largest share of a reserve that motion used [-]
-    double most_used_ = 0;          // of any reserve since the build [-]
     double reach_per_reserve_ = 0;  // largest (radius + reserve)/reserve [-]
+    double most_used_ = 0;          // of any reserve since the build [-]
     bool stale_ = true, suspicious_ = false;
-    std::int64_t builds_ = 0, searches_ = 0;
+    std::int64_t builds_ = 0, searches_ = 0, renewals_ = 0;
 };
 
 }  // namespace grainfield::core

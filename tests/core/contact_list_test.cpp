@@ -56,6 +56,35 @@ TEST_P(Lists, NoContactIsMissedWhenTheWholeBoxTravels) {
     expect_complete(sim, 2e-4, 800);
 }
 
+TEST_P(Lists, NoContactOfAFewFastSpheresIsMissed) {
+    // Small spheres fly about between large ones, across the borders of domains, while the box
+    // shrinks: neighbours are searched for again, but for these few alone.
+    constexpr std::array<int, 3> n{12, 12, 12};
+    std::vector<Ball> balls = loose_balls(n, 1.05, 0.0);
+    const Vec3 size = loose_box(n, 1.05).size();
+    for (int k = 0; k < 5; ++k)
+        balls.push_back({.x = size.cwiseQuotient(Vec3(n[0], n[1], n[2])) * (2 * k + 2),
+                         .v = 2.0 * random_vec(static_cast<std::uint64_t>(k), 4),
+                         .radius = 0.4 * test_radius});
+    Scene scene = scene_of(balls, 0.3);
+    scene.walls = box_walls({Vec3::Zero(), size}, plane(Vec3::Zero(), Vec3::UnitX(), 0.3));
+    Simulation sim(std::move(scene), table());
+    sim.set_wall_velocity(3, Vec3(0, -0.2, 0));
+    sim.add_velocities(
+        [&](std::size_t, const Vec3& x) { return Vec3(0, -0.2 * x.y() / size.y(), 0); });
+    for (int k = 0; k < 400; ++k) {
+        sim.compute_forces();
+        if (k % 20 == 0) {
+            ASSERT_EQ(sim.touching_contacts(), true_contacts(sim)) << "step " << k;
+        }
+        sim.advance(2e-4);
+    }
+    EXPECT_GT(true_contacts(sim), 0);
+    if (is_reference()) return;
+    EXPECT_GT(sim.neighbour_renewals(), 5);
+    EXPECT_LT(sim.neighbour_searches(), sim.neighbour_renewals());
+}
+
 TEST_P(Lists, NoContactIsMissedAtASkewWallInATravellingBox) {
     // The spheres travel with the box and are at rest in it; a skew wall stands still.
     Scene scene = scene_of({Ball{.x = Vec3(0.2, 0.2, 0.2), .v = Vec3(1, 0, 0)}});
