@@ -15,7 +15,8 @@ class Monitor {
     /// A stage of the work begins, e.g. "settling".
     virtual void begin(std::string_view /*stage*/) {}
     /// Called now and then. `done` is the share of the stage in [0, 1], negative where it cannot be
-    /// known; `detail` a few figures for the screen.
+    /// known; `steps` so far, negative where steps are not what counts; `detail` a few figures for
+    /// the screen.
     virtual void progress(double /*done*/, std::int64_t /*steps*/, std::string_view /*detail*/) {}
     /// A line worth keeping, e.g. a figure chosen by the program.
     virtual void note(const std::string& /*line*/) {}

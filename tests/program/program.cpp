@@ -27,19 +27,13 @@ std::string content(const fs::path& path) {
     return text.str();
 }
 
-bool holds_a_file(const fs::path& folder) {
-    std::error_code error;
-    const fs::directory_iterator files(folder, error);
-    return !error && files != fs::directory_iterator();
-}
-
 /// Waits for the program's end; one that hangs is killed, and the test then sees 128 + SIGKILL.
 int wait_for(pid_t child, std::optional<SignalAfter> signal) {
     constexpr int tries = 120 * 200;  // two minutes
     int status = 0;
     for (int k = 0; ::waitpid(child, &status, WNOHANG) == 0; ++k) {
         if (k == tries) ::kill(child, SIGKILL);
-        if (signal && holds_a_file(signal->when_exists)) {
+        if (signal && signal->when()) {
             ::kill(child, signal->signal);
             signal.reset();
         }
@@ -49,6 +43,12 @@ int wait_for(pid_t child, std::optional<SignalAfter> signal) {
 }
 
 }  // namespace
+
+bool holds_a_file(const fs::path& folder) {
+    std::error_code error;
+    const fs::directory_iterator files(folder, error);
+    return !error && files != fs::directory_iterator();
+}
 
 Outcome run_program(const std::vector<std::string>& arguments, const fs::path& folder,
                     const std::optional<SignalAfter>& signal) {

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -20,8 +21,10 @@ struct Outcome {
 /// A signal sent to the running program.
 struct SignalAfter {
     int signal = SIGINT;
-    std::filesystem::path when_exists;  ///< sent once this folder holds a file
+    std::function<bool()> when;  ///< sent once this is true; asked every few milliseconds
 };
+
+bool holds_a_file(const std::filesystem::path& folder);
 
 /// Runs `grainfield ARGUMENTS`; `folder` is where outputs are captured.
 Outcome run_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,

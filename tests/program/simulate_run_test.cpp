@@ -138,8 +138,9 @@ TEST(SimulateRun, ASignalEndsWith130AndTheState) {
         place.write("spheres.csv", lattice(4));
         const std::string scene = place.write(
             "scene.toml", head + "[time]\nstep = 1e-5\nend = 1e5\n[output]\ninterval = 1e5\n");
-        const Outcome run = place.run({"simulate", scene, "--out", place.path("run")},
-                                      SignalAfter{signal, place.path("run")});
+        const Outcome run =
+            place.run({"simulate", scene, "--out", place.path("run")},
+                      SignalAfter{signal, [&] { return holds_a_file(place.path("run")); }});
         EXPECT_EQ(run.code, 130) << run.err;
         EXPECT_THAT(run.err, HasSubstr(place.path("run/state.h5")));
         EXPECT_TRUE(place.has("run/state.h5"));

@@ -28,6 +28,7 @@ void add_commands(CLI::App& app, CommandLine& line) {
     add_pack_command(app, line);
     add_field_command(app, line);
     add_triaxial_command(app, line);
+    add_montecarlo_command(app, line);
     add_report_command(app, line);
     add_simulate_command(app, line);
     add_convert_command(app, line);

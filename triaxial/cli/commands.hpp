@@ -8,6 +8,7 @@ namespace grainfield::triaxial {
 void add_pack_command(CLI::App& app, CommandLine& line);
 void add_field_command(CLI::App& app, CommandLine& line);
 void add_triaxial_command(CLI::App& app, CommandLine& line);
+void add_montecarlo_command(CLI::App& app, CommandLine& line);
 void add_report_command(CLI::App& app, CommandLine& line);
 void add_simulate_command(CLI::App& app, CommandLine& line);
 void add_convert_command(CLI::App& app, CommandLine& line);

@@ -81,7 +81,7 @@ std::string TerminalMonitor::text(double done, std::int64_t steps, std::string_v
     const Clock::time_point now = Clock::now();
     std::string line = stage_.empty() ? "working" : stage_;
     if (done >= 0) line += fmt::format("  {:.1f} %", 100 * std::min(done, 1.0));
-    line += fmt::format("  {} steps", steps);
+    if (steps >= 0) line += fmt::format("  {} steps", steps);
     const double measured = Seconds(now - first_report_).count();
     if (measured > 0 && steps > first_steps_)
         line += "  " + rate_text(static_cast<double>(steps - first_steps_) / measured);

@@ -42,19 +42,9 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 Sample sample_from_file(const Arguments& arguments, const Config& config, const fs::path& out) {
     const fs::path path = *arguments.packing;
     core::SphereFile file = read_packing(path, config);
-    const auto variable = config.field.variable;
-    const bool friction =
-        variable == randomfield::Variable::friction || variable == randomfield::Variable::both;
-    const bool stiffness =
-        variable == randomfield::Variable::stiffness || variable == randomfield::Variable::both;
-    if ((friction && file.has_friction_angle) || (stiffness && file.has_normal_stiffness))
-        throw InputError(
-            fmt::format("{}: brings a column for the property that field.variable makes random; "
-                        "leave out the one or the other",
-                        path.string()));
     if (fs::exists(json_beside(path)) && file.kind == "packing")
         core::write_file_atomically(out / "packing.json", core::read_whole_file(json_beside(path)));
-    return {std::move(file.spheres), *file.box};
+    return sample_of(std::move(file), path);
 }
 
 Sample sample_from_nothing(const Config& config, const fs::path& out, core::Monitor& monitor) {
@@ -109,9 +99,8 @@ void run_triaxial(const Arguments& arguments, Session& session) {
     const FieldRecord field = map_field(config, arguments.realization, sample);
     times.field = seconds_since(start);
 
-    core::Scene scene = make_scene(std::move(sample), config);
-    core::check_start(scene, arguments.packing.value_or("the packing"));
-    core::Simulation simulation(std::move(scene), kernels);
+    core::Simulation simulation = make_simulation(std::move(sample), config, kernels,
+                                                  arguments.packing.value_or("the packing"));
     const TestResult result = keeper.run([&] { return run_test(simulation, config, keeper); });
     core::write_file_atomically(out / "config.toml", write_config(config));
     core::write_file_atomically(out / "curve.csv", curve_csv(result.curve));

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cstring>
 #include <set>
 
 #include "triaxial/config/config_keys.hpp"
@@ -56,51 +58,114 @@ void add_leaves(const TomlValue& table, const std::string& path, TomlValue::Tabl
     }
 }
 
-void check_sweep(const TomlReader& reader, const TomlValue& sweep) {
+/// Names stand in a column of results.csv and in the names of files.
+bool is_name(const std::string& name) {
+    return std::ranges::all_of(name, [](unsigned char c) {
+        return std::isalnum(c) != 0 || std::strchr(" ._+=-", c) != nullptr;
+    });
+}
+
+/// A value as part of a case's name: 5x0.5x5 for [5, 0.5, 5].
+std::string value_name(const TomlValue& value) {
+    if (const auto* text = std::get_if<std::string>(&value.data)) return *text;
+    const auto* array = std::get_if<TomlValue::Array>(&value.data);
+    if (array == nullptr) return toml_text(value);
+    std::string name;
+    for (const TomlValue& element : *array) name += (name.empty() ? "" : "x") + value_name(element);
+    return name;
+}
+
+/// One swept key: the name it goes by in the names of cases, and its values.
+struct SweptKey {
+    std::string path, name;
+    TomlValue::Array values;
+};
+
+std::vector<SweptKey> read_sweep(const TomlReader& reader, const TomlValue& sweep) {
     if (!sweep.is_table())
         throw reader.wrong_value("montecarlo.sweep", sweep, "a table of keys and arrays of values");
     const Trial trial;
     TomlValue::Table leaves;
     add_leaves(sweep, "", leaves);
+    std::vector<SweptKey> keys;
+    std::multiset<std::string> short_names;
     for (const auto& [path, values] : leaves) {
         const auto* array = std::get_if<TomlValue::Array>(&values.data);
         if (array == nullptr || array->empty())
             throw reader.wrong_value("montecarlo.sweep." + toml_string(path), values,
                                      "an array of one or more values");
         for (const TomlValue& value : *array) trial.check(reader, "montecarlo.sweep", path, value);
+        keys.push_back({path, path.substr(path.rfind('.') + 1), *array});
+        short_names.insert(keys.back().name);
     }
+    for (SweptKey& key : keys)
+        if (short_names.count(key.name) > 1) key.name = key.path;
+    return keys;
 }
 
-void check_case(const TomlReader& document, const TomlValue& one, std::set<std::string>& names) {
+CaseKeys read_case(const TomlReader& document, const TomlValue& one, std::set<std::string>& names) {
     TomlReader reader(one, "", "montecarlo.case.");
-    std::string name;
-    reader.require({"name", text_slot(name, "a text"), ""});
-    if (!names.insert(name).second)
+    CaseKeys result;
+    reader.require({"name", text_slot(result.name, "a text"), ""});
+    if (!is_name(result.name))
+        throw reader.wrong_value("name", *one.find("name"),
+                                 "a name of letters, digits, blanks and . _ + = -");
+    if (!names.insert(result.name).second)
         throw reader.wrong_value("name", *one.find("name"), "a name of its own for every case");
     if (const TomlValue* set = reader.take("set")) {
         if (!set->is_table()) throw reader.wrong_value("set", *set, "a table of keys and values");
         const Trial trial;
-        TomlValue::Table leaves;
-        add_leaves(*set, "", leaves);
-        for (const auto& [path, value] : leaves)
+        add_leaves(*set, "", result.values);
+        for (const auto& [path, value] : result.values)
             trial.check(document, "montecarlo.case.set", path, value);
     }
     reader.finish();
+    return result;
+}
+
+std::vector<CaseKeys> read_cases(const TomlReader& reader, const TomlValue& cases) {
+    const auto* array = std::get_if<TomlValue::Array>(&cases.data);
+    const auto is_table = [](const TomlValue& value) { return value.is_table(); };
+    if (array == nullptr || !std::ranges::all_of(*array, is_table))
+        throw reader.wrong_value("montecarlo.case", cases,
+                                 "an array of tables [[montecarlo.case]]");
+    std::set<std::string> names;
+    std::vector<CaseKeys> result;
+    for (const TomlValue& one : *array) result.push_back(read_case(reader, one, names));
+    return result;
+}
+
+/// Every case with every value of the key.
+std::vector<CaseKeys> crossed(const std::vector<CaseKeys>& cases, const SweptKey& key) {
+    std::vector<CaseKeys> result;
+    for (const CaseKeys& one : cases)
+        for (const TomlValue& value : key.values) {
+            CaseKeys next = one;
+            next.name +=
+                fmt::format("{}{}={}", next.name.empty() ? "" : " ", key.name, value_name(value));
+            next.values.push_back({key.path, value});
+            result.push_back(std::move(next));
+        }
+    return result;
 }
 
 }  // namespace
 
-void check_campaign(TomlReader& reader) {
-    if (const TomlValue* sweep = reader.take("montecarlo.sweep")) check_sweep(reader, *sweep);
-    const TomlValue* cases = reader.take("montecarlo.case");
-    if (cases == nullptr) return;
-    const auto* array = std::get_if<TomlValue::Array>(&cases->data);
-    const auto is_table = [](const TomlValue& value) { return value.is_table(); };
-    if (array == nullptr || !std::ranges::all_of(*array, is_table))
-        throw reader.wrong_value("montecarlo.case", *cases,
-                                 "an array of tables [[montecarlo.case]]");
+std::vector<CaseKeys> read_campaign(TomlReader& reader) {
+    std::vector<CaseKeys> cases;
+    std::vector<SweptKey> sweep;
+    if (const TomlValue* value = reader.take("montecarlo.sweep"))
+        sweep = read_sweep(reader, *value);
+    if (const TomlValue* value = reader.take("montecarlo.case")) cases = read_cases(reader, *value);
+    if (cases.empty()) cases.push_back({sweep.empty() ? "base" : "", {}});
+    for (const SweptKey& key : sweep) cases = crossed(cases, key);
     std::set<std::string> names;
-    for (const TomlValue& one : *array) check_case(reader, one, names);
+    for (const CaseKeys& one : cases)
+        if (!names.insert(one.name).second)
+            throw InputError(fmt::format(
+                "montecarlo.sweep: two cases are called \"{}\": a value stands there twice",
+                one.name));
+    return cases;
 }
 
 }  // namespace grainfield::triaxial

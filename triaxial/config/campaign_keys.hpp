@@ -1,12 +1,23 @@
 #pragma once
 // The part of [montecarlo] that varies other keys: sweep and cases.
 
+#include <string>
+#include <vector>
+
 #include "triaxial/config/toml_reader.hpp"
 
 namespace grainfield::triaxial {
 
+/// One case of a campaign: its name and the values it sets, by dotted path.
+struct CaseKeys {
+    std::string name;
+    TomlValue::Table values;
+};
+
 /// Takes montecarlo.sweep and montecarlo.case and checks that every key in them is one of a config
-/// and every value one that it may have. Throws InputError.
-void check_campaign(TomlReader& reader);
+/// and every value one that it may have. Returns the cases, each of [[montecarlo.case]] crossed
+/// with the sweep: cases in the order of the file, swept keys by name, the last the fastest; one
+/// case `base` where neither is given. Throws InputError.
+std::vector<CaseKeys> read_campaign(TomlReader& reader);
 
 }  // namespace grainfield::triaxial

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "triaxial/config/config.hpp"
 
@@ -15,5 +16,17 @@ namespace grainfield::triaxial {
 /// and FileError where the file cannot be read.
 Config load_config(const std::optional<std::filesystem::path>& file,
                    std::span<const std::string> overrides = {});
+
+/// One case of a campaign with its whole config.
+struct CampaignCase {
+    std::string name;
+    Config config;
+};
+
+/// The cases of a campaign, each checked as a config of its own: [[montecarlo.case]] crossed with
+/// [montecarlo.sweep]; one case `base` where there is neither. Throws as load_config, naming the
+/// case.
+std::vector<CampaignCase> load_campaign(const std::optional<std::filesystem::path>& file,
+                                        std::span<const std::string> overrides = {});
 
 }  // namespace grainfield::triaxial

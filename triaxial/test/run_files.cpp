@@ -99,12 +99,13 @@ std::string curve_csv(const std::vector<CurvePoint>& curve) {
     return text;
 }
 
-void write_state(const std::filesystem::path& path, const core::Simulation& simulation) {
+void write_state(const std::filesystem::path& path, const core::Simulation& simulation,
+                 const std::string& kind) {
     core::SphereFile file;
     file.spheres = simulation.spheres();
     file.has_normal_stiffness = file.has_friction_angle = file.has_velocity = true;
     file.has_block = file.spheres.size() > 0 && file.spheres.block[0] != core::no_block;
-    file.kind = "state";
+    file.kind = kind;
     const auto walls = simulation.walls();
     if (walls.size() >= 6)
         file.box = core::Box{Vec3(walls[0].point.x(), walls[2].point.y(), walls[4].point.z()),

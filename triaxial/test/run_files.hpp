@@ -22,7 +22,9 @@ nlohmann::json run_summary(const TestResult& result, const FieldRecord& field, c
 /// curve.csv, header and units of the contract.
 std::string curve_csv(const std::vector<CurvePoint>& curve);
 
-/// state.h5: the spheres as they are, with their box, properties and touching contacts.
-void write_state(const std::filesystem::path& path, const core::Simulation& simulation);
+/// state.h5: the spheres as they are, with their box, properties and touching contacts. `kind`
+/// says what the file is: "state", or "start" of other tests.
+void write_state(const std::filesystem::path& path, const core::Simulation& simulation,
+                 const std::string& kind = "state");
 
 }  // namespace grainfield::triaxial

@@ -23,16 +23,46 @@ core::SphereFile read_packing(const std::filesystem::path& path, const Config& c
         candidates.emplace_back(i, j);
     core::check_overlaps(s, candidates, path.string(), file.lines);
 
-    const bool ours = file.kind == "packing";  // its properties were those of the packing process
+    // The properties of our own files were those of how they were made.
+    const bool ours = file.kind == "packing" || file.kind == "start";
     if (!file.has_normal_stiffness || ours)
         std::fill(s.normal_stiffness.begin(), s.normal_stiffness.end(),
                   config.particle.normal_stiffness);
     if (!file.has_friction_angle || ours)
         std::fill(s.friction_angle.begin(), s.friction_angle.end(), config.particle.friction_angle);
     if (ours) file.has_normal_stiffness = file.has_friction_angle = false;
+    using randomfield::Variable;
+    const Variable variable = config.field.variable;
+    const bool friction = variable == Variable::friction || variable == Variable::both;
+    const bool stiffness = variable == Variable::stiffness || variable == Variable::both;
+    if ((friction && file.has_friction_angle) || (stiffness && file.has_normal_stiffness))
+        throw InputError(
+            fmt::format("{}: brings a column for the property that field.variable makes random; "
+                        "leave out the one or the other",
+                        path.string()));
     s.set_density(config.particle.density);
     if (!file.box) file.box = core::bounding_box(s);
     return file;
+}
+
+Sample sample_of(core::SphereFile file, const std::filesystem::path& path) {
+    Sample sample{std::move(file.spheres), *file.box};
+    const auto found = file.extra.find("contacts");
+    if (file.kind != "start" || found == file.extra.end()) return sample;
+    const auto damaged = [&] {
+        return FileError(fmt::format("{}: its contacts are damaged", path.string()));
+    };
+    const core::ExtraArray& contacts = found->second;  // rows of i, j, shear force on i
+    if (contacts.shape.size() != 2 || contacts.shape[1] != 5) throw damaged();
+    const auto spheres = static_cast<double>(sample.spheres.size());
+    for (std::size_t k = 0; k < contacts.shape[0]; ++k) {
+        const double* row = contacts.values.data() + 5 * k;
+        if (!(row[0] >= 0 && row[0] < spheres && row[1] >= -6 && row[1] < spheres)) throw damaged();
+        sample.contacts.push_back({static_cast<std::int32_t>(row[0]),
+                                   static_cast<std::int32_t>(row[1]),
+                                   Vec3(row[2], row[3], row[4])});
+    }
+    return sample;
 }
 
 FieldRecord map_field(const Config& config, std::int64_t realization, Sample& sample) {

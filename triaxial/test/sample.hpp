@@ -13,8 +13,13 @@ namespace grainfield::triaxial {
 
 /// Reads a packing for a test. An .h5 brings its box; of a text file the box is the spheres'
 /// bounding box. Properties are those of [particle]; of a text file, columns that it brings
-/// override them. Throws InputError (bad spheres, overlaps), FileError.
+/// override them. Throws InputError (bad spheres, overlaps, a column of a property that
+/// field.variable makes random), FileError.
 core::SphereFile read_packing(const std::filesystem::path& path, const Config& config);
+
+/// A sample of what was read. A file that was written as the start of tests brings the shear forces
+/// of its contacts. Throws FileError where these are damaged.
+Sample sample_of(core::SphereFile file, const std::filesystem::path& path);
 
 /// What the random field did to the sample, for summary.json.
 struct FieldRecord {

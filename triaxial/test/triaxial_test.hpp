@@ -15,8 +15,15 @@ namespace grainfield::triaxial {
 
 /// The sample as the test starts with it: spheres with their properties, and its box.
 struct Sample {
+    /// Shear force on sphere i of its contact with sphere j, or with wall -1 - j [N].
+    struct ContactShear {
+        std::int32_t i = 0, j = 0;
+        Vec3 shear = Vec3::Zero();
+    };
+
     core::ParticleStore spheres;
     core::Box box;
+    std::vector<ContactShear> contacts = {};  ///< that carry a shear force when the test starts
 };
 
 struct TestResult {
@@ -42,6 +49,11 @@ struct TestResult {
 
 /// The scene of a test: six walls of the box, friction and stiffness of the config's wall.
 core::Scene make_scene(Sample sample, const Config& config);
+
+/// make_scene() as a simulation, its spheres and overlaps checked (`name` stands for them in
+/// messages), its contacts with the shear forces of the sample. Throws InputError.
+core::Simulation make_simulation(Sample sample, const Config& config,
+                                 const kernels::KernelTable& kernels, const std::string& name);
 
 /// Runs both stages on a simulation made of make_scene(). Throws SimulationError and Interrupted;
 /// the simulation then holds the state reached.

@@ -1,0 +1,211 @@
+// Campaigns survive: stopped or killed at any moment and started again, in shards, on any number
+// of threads, they end with the same results; two processes do not meet; failures are rows.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <sstream>
+
+#include "core/files/sphere_file.hpp"
+#include "tests/program/program.hpp"
+#include "tests/triaxial/small_test.hpp"
+
+namespace grainfield::program_tests {
+namespace {
+
+using testing::HasSubstr;
+
+/// A packing of 200 spheres and a campaign on it, for all tests.
+class MonteCarlo : public testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        const triaxial::Sample sample = triaxial::testing::dense_sample(200);
+        packing_ = std::make_unique<core::SphereFile>();
+        packing_->spheres = sample.spheres;
+        packing_->box = sample.box;
+        packing_->has_normal_stiffness = packing_->has_friction_angle = packing_->has_block = true;
+        packing_->kind = "packing";
+        const Vec3 size = sample.box.size();
+        config_ = fmt::format(
+            "[packing]\nblocks = [2, 4, 2]\nblock = [{}, {}, {}]\n[field]\nvariable = "
+            "'stiffness'\n[montecarlo]\nrealizations = 8\n[montecarlo.sweep]\n"
+            "'field.stiffness.cov' = [0.4, 0.8]\n",
+            size.x() / 2, size.y() / 4, size.z() / 2);
+    }
+    static void TearDownTestSuite() { packing_.reset(); }
+
+    MonteCarlo() {
+        core::write_spheres(place_.path("p.h5"), *packing_);
+        place_.write("c.toml", config_);
+    }
+
+    std::vector<std::string> words(const std::string& out,
+                                   const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> all{"montecarlo",     place_.path("c.toml"), "--out",
+                                     place_.path(out), "--packing",           place_.path("p.h5")};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    Outcome run(const std::string& out, const std::vector<std::string>& more = {},
+                const std::optional<SignalAfter>& signal = std::nullopt) const {
+        return place_.run(words(out, more), signal);
+    }
+    /// A results file without the wall times.
+    std::string table(const std::string& out, const std::string& name = "results.csv") const {
+        std::string text;
+        std::istringstream lines(place_.read(out + "/" + name));
+        for (std::string line; std::getline(lines, line);) {
+            std::istringstream fields(line);
+            std::string field;
+            for (int k = 0; std::getline(fields, field, ','); ++k)
+                if (k != 9) text += field + ',';
+            text += '\n';
+        }
+        return text;
+    }
+    /// Whole lines of all journals of a campaign.
+    std::size_t rows(const std::string& out) const {
+        std::size_t count = 0;
+        std::error_code error;
+        for (const auto& entry : std::filesystem::directory_iterator(place_.path(out), error))
+            if (entry.path().extension() == ".journal") {
+                const std::string text = place_.read(out + "/" + entry.path().filename().string());
+                count += static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+            }
+        return count;
+    }
+
+    static std::unique_ptr<core::SphereFile> packing_;
+    static std::string config_;
+    Workplace place_;
+};
+
+std::unique_ptr<core::SphereFile> MonteCarlo::packing_;
+std::string MonteCarlo::config_;
+
+TEST_F(MonteCarlo, KilledAgainAndAgainItEndsWithTheSameResults) {
+    ASSERT_EQ(run("whole", {"--quiet"}).code, 0);
+    const std::string whole = table("whole");
+    EXPECT_EQ(std::count(whole.begin(), whole.end(), '\n'), 1 + 2 * 8);
+    EXPECT_EQ(whole.find("failed"), std::string::npos);
+
+    int kills = 0;
+    Outcome last;
+    for (int attempt = 0; attempt < 60; ++attempt) {
+        const std::size_t before = rows("killed");
+        // Later and later after something has happened, at any moment of a run.
+        const auto moment = std::make_shared<std::chrono::steady_clock::time_point>();
+        const auto delay = std::chrono::milliseconds(7 * attempt % 60);
+        const auto due = [&, moment] {
+            const auto now = std::chrono::steady_clock::now();
+            if (*moment == std::chrono::steady_clock::time_point{} &&
+                (rows("killed") > before || (before == 0 && attempt < 5)))
+                *moment = now;
+            return *moment != std::chrono::steady_clock::time_point{} && now - *moment >= delay;
+        };
+        last =
+            run("killed", {"--threads", attempt % 2 == 0 ? "1" : "2"}, SignalAfter{SIGKILL, due});
+        EXPECT_GE(rows("killed"), before) << "a finished row is gone";
+        if (last.code == 0) break;
+        ASSERT_EQ(last.code, 128 + SIGKILL) << last.err;
+        ++kills;
+    }
+    EXPECT_EQ(last.code, 0) << last.err;
+    EXPECT_GE(kills, 5);
+    EXPECT_EQ(table("killed"), whole);
+    EXPECT_EQ(table("killed", "deterministic.csv"), table("whole", "deterministic.csv"));
+    // Done already: nothing is computed.
+    const Outcome again = run("killed");
+    EXPECT_EQ(again.code, 0);
+    EXPECT_THAT(again.out, HasSubstr("rows computed           0"));
+    EXPECT_EQ(table("killed"), whole);
+}
+
+TEST_F(MonteCarlo, InterruptedItSaysHowFarItIs) {
+    const Outcome stopped =
+        run("out", {"--threads", "1"}, SignalAfter{SIGINT, [&] { return rows("out") >= 3; }});
+    EXPECT_EQ(stopped.code, 130) << stopped.err;
+    EXPECT_THAT(stopped.err, HasSubstr("of 18 rows are done"));
+    EXPECT_GE(std::ranges::count(table("out"), '\n'), 1 + 1);
+    EXPECT_LT(rows("out"), 18u);
+    EXPECT_EQ(run("out").code, 0);
+    EXPECT_EQ(rows("out"), 18u);
+}
+
+TEST_F(MonteCarlo, ShardsInOneFolderAndMergedFoldersGiveTheSame) {
+    ASSERT_EQ(run("whole").code, 0);
+    for (const char* shard : {"2/3", "1/3", "3/3"}) {
+        ASSERT_EQ(run("shared", {"--shard", shard}).code, 0);
+        ASSERT_EQ(run(std::string("part") + shard[0], {"--shard", shard}).code, 0);
+    }
+    EXPECT_EQ(table("shared"), table("whole"));
+    const Outcome merged = run(
+        "merged", {"--merge", place_.path("part1"), place_.path("part2"), place_.path("part3")});
+    EXPECT_EQ(merged.code, 0) << merged.err;
+    EXPECT_EQ(table("merged"), table("whole"));
+    EXPECT_EQ(table("merged", "deterministic.csv"), table("whole", "deterministic.csv"));
+}
+
+TEST_F(MonteCarlo, RowsAreTheSameOnAnyThreadsAndOfTheTriaxialCommand) {
+    ASSERT_EQ(run("one", {"--threads", "1"}).code, 0);
+    ASSERT_EQ(run("three", {"--threads", "3"}).code, 0);
+    ASSERT_EQ(run("pair", {"--threads", "2", "--abreast", "1"}).code, 0);
+    EXPECT_EQ(table("one"), table("three"));
+    EXPECT_EQ(table("one"), table("pair"));
+    std::filesystem::path start;
+    for (const auto& entry : std::filesystem::directory_iterator(place_.path("one/starts")))
+        if (entry.path().extension() == ".h5") start = entry.path();
+    const Outcome single =
+        place_.run({"triaxial", place_.path("one/cases/cov=0.8.toml"), "--packing", start.string(),
+                    "--realization", "5", "--out", place_.path("single")});
+    ASSERT_EQ(single.code, 0) << single.err;
+    const std::string hash = place_.json("single/summary.json")["state_hash"];
+    EXPECT_THAT(table("one"), testing::ContainsRegex("cov=0.8,5,1,done,.*" + hash));
+}
+
+TEST_F(MonteCarlo, TheSecondProcessSaysSoAndStops) {
+    Outcome second;
+    const Outcome first = run("out", {"--threads", "1"},
+                              SignalAfter{SIGTERM, [&] {
+                                              if (rows("out") == 0) return false;
+                                              second = run_program(words("out"), place_.path("."));
+                                              return true;
+                                          }});
+    EXPECT_EQ(first.code, 130);
+    EXPECT_EQ(second.code, 2);
+    EXPECT_THAT(second.err, HasSubstr("works on this campaign already"));
+    EXPECT_EQ(run("out").code, 0);
+}
+
+TEST_F(MonteCarlo, ARunThatFailsIsARowAndTheOthersGoOn) {
+    // A step far beyond the limit breaks the runs of one of the cases.
+    place_.write("c.toml", config_ + "'time.step' = ['auto', 1e-3]\n");
+    const Outcome outcome = run("out", {"--set", "montecarlo.realizations=2"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const std::string results = table("out");
+    EXPECT_THAT(results, HasSubstr("cov=0.4 step=auto,1,1,done,"));
+    EXPECT_THAT(results, HasSubstr("cov=0.4 step=0.001,1,1,failed,,,,,,"));
+    EXPECT_THAT(place_.read("out/failures.csv"), HasSubstr("cov=0.4 step=0.001,1,\""));
+    EXPECT_THAT(outcome.out, HasSubstr("0 of 2 done, 2 failed"));
+}
+
+TEST_F(MonteCarlo, BadUseIsRefused) {
+    for (const char* shard : {"0/3", "4/3", "1", "a/b", "1/3/5", "-1/2"}) {
+        const Outcome outcome = run("out", {"--shard", shard});
+        EXPECT_EQ(outcome.code, 2) << shard;
+        EXPECT_THAT(outcome.err, HasSubstr("--shard"));
+    }
+    EXPECT_FALSE(place_.has("out"));
+    EXPECT_EQ(run("out", {"--merge", place_.path("nowhere")}).code, 4);
+    ASSERT_EQ(run("out", {"--set", "montecarlo.realizations=1"}).code, 0);
+    const Outcome other = run("out", {"--set", "particle.density=2500"});
+    EXPECT_EQ(other.code, 2);
+    EXPECT_THAT(other.err, HasSubstr("density"));
+}
+
+}  // namespace
+}  // namespace grainfield::program_tests

@@ -1,0 +1,177 @@
+#include "triaxial/campaign/campaign.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "core/errors.hpp"
+#include "triaxial/campaign/progress.hpp"
+#include "triaxial/campaign/run_work.hpp"
+#include "triaxial/campaign/starts.hpp"
+
+namespace grainfield::triaxial {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto look_interval = std::chrono::milliseconds(200);
+constexpr auto results_interval = std::chrono::seconds(20);
+
+/// The rows of a run, as the folder keeps them.
+std::vector<Row> rows_of(const Work& work, const Row& result,
+                         const std::vector<CampaignCase>& cases) {
+    std::vector<Row> rows;
+    for (const RowPlace& place : work.rows) {
+        Row row = result;
+        row.case_name = cases[place.case_index].name;
+        row.realization = place.realization;
+        row.seed = cases[place.case_index].config.field.seed;
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+/// Runs that share the threads: each takes the next that nobody has taken.
+class Crew {
+  public:
+    Crew(CampaignFolder& folder, const std::vector<CampaignCase>& cases, const Starts& starts,
+         std::vector<Work> todo)
+        : folder_(folder), cases_(cases), starts_(starts), todo_(std::move(todo)) {}
+
+    /// Works until all is done, something broke, or the monitor asks to stop.
+    void run(int abreast, int threads, Progress& progress, core::Monitor& monitor) {
+        std::vector<std::jthread> members;
+        working_ = abreast;
+        for (int m = 0; m < abreast; ++m)
+            members.emplace_back([this, threads, &progress] { member(threads, progress); });
+        auto written = Clock::now();
+        std::unique_lock lock(mutex_);
+        while (!changed_.wait_for(lock, look_interval, [this] { return working_ == 0; })) {
+            if (monitor.stop_requested()) stop_ = true;
+            progress.show(monitor);
+            if (Clock::now() - written < results_interval) continue;
+            lock.unlock();
+            folder_.write_results();
+            lock.lock();
+            written = Clock::now();
+        }
+        lock.unlock();
+        members.clear();
+        if (error_) std::rethrow_exception(error_);
+    }
+    bool stopped() const { return stop_; }
+
+  private:
+    void member(int threads, Progress& progress) {
+        omp_set_num_threads(threads);
+        tbb::task_arena arena(threads);
+        try {
+            while (const Work* work = next(progress)) {
+                const Row first = rows_of(*work, {}, cases_).front();
+                const auto state = folder_.path() / CampaignFolder::state_name(first);
+                Row result;
+                arena.execute([&] { result = computed(*work, state); });
+                finish(*work, result, progress);
+            }
+        } catch (const Interrupted&) {  // stop_ is set already
+        } catch (...) {
+            const std::lock_guard lock(mutex_);
+            if (!error_) error_ = std::current_exception();
+            stop_ = true;
+        }
+        const std::lock_guard lock(mutex_);
+        --working_;
+        changed_.notify_all();
+    }
+
+    Row computed(const Work& work, const std::filesystem::path& state) {
+        try {
+            return run_work(work, starts_.of(work.config), state, stop_);
+        } catch (const SimulationError& error) {  // there is no start
+            Row row;
+            row.failed = true;
+            row.reason = error.what();
+            return row;
+        }
+    }
+
+    const Work* next(Progress& progress) {
+        const std::lock_guard lock(mutex_);
+        if (stop_ || taken_ == todo_.size()) return nullptr;
+        progress.started();
+        return &todo_[taken_++];
+    }
+
+    void finish(const Work& work, const Row& result, Progress& progress) {
+        const std::vector<Row> rows = rows_of(work, result, cases_);
+        const std::lock_guard lock(mutex_);
+        folder_.append(rows);
+        progress.finished(rows);
+    }
+
+    CampaignFolder& folder_;
+    const std::vector<CampaignCase>& cases_;
+    const Starts& starts_;
+    std::vector<Work> todo_;
+    std::size_t taken_ = 0;
+    int working_ = 0;
+    std::atomic<bool> stop_ = false;
+    std::exception_ptr error_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+};
+
+/// What is left of a plan. Rows whose run another row has already made are taken from it.
+std::vector<Work> left_of(std::vector<Work> plan, const std::map<RowPlace, Row>& finished,
+                          const std::vector<CampaignCase>& cases, CampaignFolder& folder) {
+    std::vector<Work> todo;
+    for (Work& work : plan) {
+        const auto known = std::find_if(work.rows.begin(), work.rows.end(),
+                                        [&](const RowPlace& p) { return finished.contains(p); });
+        if (known == work.rows.end()) {
+            todo.push_back(std::move(work));
+            continue;
+        }
+        const Row result = finished.at(*known);
+        std::erase_if(work.rows, [&](const RowPlace& p) { return finished.contains(p); });
+        folder.append(rows_of(work, result, cases));
+    }
+    return todo;
+}
+
+}  // namespace
+
+CampaignResult run_campaign(CampaignFolder& folder, const std::vector<CampaignCase>& cases,
+                            const CampaignOptions& options, core::Monitor& monitor) {
+    const std::size_t before = folder.finished().size();
+    std::vector<Work> todo =
+        left_of(plan_campaign(cases, options.shard), folder.finished(), cases, folder);
+    Starts starts(folder.path(), options.packing);
+    for (const Work& work : todo) starts.prepare(work.config, monitor);
+
+    // One run a thread: no thread ever waits for another. Fewer runs than threads share them.
+    const int runs = static_cast<int>(std::min<std::size_t>(todo.size(), 1024));
+    const int abreast = std::max(1, std::min(options.abreast.value_or(options.threads), runs));
+    const int threads = std::max(1, options.threads / abreast);
+    Progress progress(folder.finished(), todo);
+    Crew crew(folder, cases, starts, std::move(todo));
+    monitor.begin("campaign");
+    crew.run(abreast, threads, progress, monitor);
+    folder.write_results();
+    CampaignResult result;
+    result.rows = folder.finished();
+    result.computed = result.rows.size() - std::min(before, result.rows.size());
+    if (crew.stopped())
+        throw Interrupted(fmt::format("stopped by the user; {}; the same command goes on from here",
+                                      progress.counts()));
+    return result;
+}
+
+}  // namespace grainfield::triaxial

@@ -1,0 +1,34 @@
+#pragma once
+// Runs a campaign: all of its realizations, side by side, whatever happens.
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "core/monitor.hpp"
+#include "triaxial/campaign/campaign_folder.hpp"
+
+namespace grainfield::triaxial {
+
+struct CampaignOptions {
+    std::optional<std::filesystem::path> packing;  ///< all runs start from it
+    Shard shard;
+    int threads = 1;                      ///< in all [-]
+    std::optional<std::int32_t> abreast;  ///< runs side by side; unset: one a thread [-]
+};
+
+struct CampaignResult {
+    std::map<RowPlace, Row> rows;  ///< all that are finished, other shards' too
+    std::size_t computed = 0;      ///< rows added by this call [-]
+};
+
+/// Computes the rows of a shard that are not there yet. Each is on the disk before the next run of
+/// its thread begins; results.csv follows now and then and at the end. A run that fails is a row
+/// that says so. Rows are the same whatever the threads and however often the campaign was
+/// stopped. Throws Interrupted (finished rows are kept), InputError, FileError.
+CampaignResult run_campaign(CampaignFolder& folder, const std::vector<CampaignCase>& cases,
+                            const CampaignOptions& options, core::Monitor& monitor);
+
+}  // namespace grainfield::triaxial

@@ -1,0 +1,229 @@
+#include "triaxial/campaign/campaign_folder.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/errors.hpp"
+#include "core/files/atomic_file.hpp"
+#include "core/files/folder.hpp"
+#include "core/files/text_file.hpp"
+#include "core/kernel_choice.hpp"
+#include "triaxial/config/write_config.hpp"
+
+namespace grainfield::triaxial {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A case's name as part of the name of a file.
+std::string file_name(std::string name) {
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
+}
+
+std::string case_text(const CampaignCase& one) {
+    Config config = one.config;
+    config.montecarlo = {};
+    return write_config(config);
+}
+
+/// What identifies a campaign, case by case.
+nlohmann::json identity_of(const std::vector<CampaignCase>& cases,
+                           const std::optional<fs::path>& packing) {
+    nlohmann::json json{{"version", GRAINFIELD_VERSION}, {"cases", nlohmann::json::object()}};
+    if (packing) {
+        const std::string bytes = core::read_whole_file(*packing);
+        json["packing"] = fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
+    }
+    for (const CampaignCase& one : cases) {
+        const kernels::KernelTable& kernels = core::choose_kernels(one.config.solver);
+        json["cases"][one.name] = {
+            {"kernels", fmt::format("{}, {}", kernels.isa, kernels.precision)},
+            {"config", case_text(one)}};
+    }
+    return json;
+}
+
+nlohmann::json read_json(const fs::path& file) {
+    auto json = nlohmann::json::parse(core::read_whole_file(file), nullptr, false);
+    if (!json.is_object() || !json.contains("cases") || !json["cases"].is_object())
+        throw FileError(fmt::format("{}: damaged; it is not what a campaign wrote", file.string()));
+    return json;
+}
+
+/// First line in which two texts differ: "there ..., here ...".
+std::string difference(const std::string& there, const std::string& here) {
+    core::LineReader a(there), b(here);
+    for (std::string_view x, y; a.next(x) && b.next(y);)
+        if (x != y) return fmt::format("there {}, here {}", x, y);
+    return "there is more in the one than in the other";
+}
+
+/// Throws unless both are parts of one campaign.
+void compare(const nlohmann::json& there, const nlohmann::json& here, const fs::path& folder) {
+    const auto differ = [&](const std::string& what) {
+        return InputError(fmt::format("{} belongs to another campaign: {}; give another folder",
+                                      folder.string(), what));
+    };
+    const auto text = [](const nlohmann::json& json, const char* key) {
+        return json.contains(key) ? json.at(key).dump() : std::string("none");
+    };
+    for (const char* key : {"version", "packing"})
+        if (text(there, key) != text(here, key))
+            throw differ(
+                fmt::format("{} there {}, here {}", key, text(there, key), text(here, key)));
+    for (const auto& [name, one] : here["cases"].items()) {
+        if (!there["cases"].contains(name)) continue;
+        const nlohmann::json& other = there["cases"][name];
+        if (other["config"] != one["config"])
+            throw differ(
+                fmt::format("case \"{}\": {}", name, difference(other["config"], one["config"])));
+        if (other["kernels"] != one["kernels"])
+            throw differ(
+                fmt::format("case \"{}\" is computed there by {}, here by {} (--isa chooses)", name,
+                            other["kernels"].dump(), one["kernels"].dump()));
+    }
+}
+
+std::string journal_name(const Shard& shard) {
+    return fmt::format("rows-{}-of-{}.journal", shard.shard, shard.shards);
+}
+
+std::vector<Row> read_journals(const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".journal") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    std::vector<Row> rows;
+    for (const fs::path& file : files)
+        for (Row& row : read_journal(file)) rows.push_back(std::move(row));
+    return rows;
+}
+
+fs::path made(fs::path folder) {
+    core::create_folder(folder);
+    return folder;
+}
+
+}  // namespace
+
+CampaignFolder::CampaignFolder(fs::path path, const std::vector<CampaignCase>& cases,
+                               const std::optional<fs::path>& packing, const Shard& shard)
+    : path_(made(std::move(path))),
+      cases_(cases),
+      locks_(claim(path_, shard)),
+      journal_(path_ / journal_name(shard)) {
+    for (std::size_t c = 0; c < cases.size(); ++c) case_index_[cases[c].name] = c;
+    join(packing);
+}
+
+std::vector<FileLock> CampaignFolder::claim(const fs::path& folder, const Shard& shard) {
+    std::vector<FileLock> locks;
+    const auto take = [&](const fs::path& file, FileLock::Kind kind) {
+        auto lock = FileLock::try_lock(file, kind);
+        if (!lock) {
+            const std::string holder = lock_holder(file);
+            throw InputError(
+                fmt::format("{}: {} works on this campaign already; it has to end first",
+                            folder.string(), holder.empty() ? "another process" : holder));
+        }
+        locks.push_back(std::move(*lock));
+    };
+    const bool alone = shard.shards == 1;
+    take(folder / "campaign.lock", alone ? FileLock::Kind::alone : FileLock::Kind::shared);
+    if (!alone)
+        take(folder / fmt::format("shard-{}-of-{}.lock", shard.shard, shard.shards),
+             FileLock::Kind::alone);
+    return locks;
+}
+
+/// Only one process at a time writes what the shards have in common.
+FileLock CampaignFolder::writing() const {
+    return FileLock::wait_for(path_ / "results.lock", [] {});
+}
+
+void CampaignFolder::join(const std::optional<fs::path>& packing) const {
+    nlohmann::json here = identity_of(cases_, packing);
+    const FileLock lock = writing();
+    const fs::path file = path_ / "campaign.json";
+    if (fs::exists(file)) {
+        const nlohmann::json there = read_json(file);
+        compare(there, here, path_);
+        for (const auto& [name, one] : there["cases"].items())
+            if (!here["cases"].contains(name)) here["cases"][name] = one;
+        if (here == there) return;
+    }
+    core::write_file_atomically(file, here.dump(2) + "\n");
+    core::create_folder(path_ / "cases");
+    for (const CampaignCase& one : cases_)
+        core::write_file_atomically(path_ / "cases" / (file_name(one.name) + ".toml"),
+                                    case_text(one));
+}
+
+std::map<RowPlace, Row> CampaignFolder::finished() const {
+    std::map<RowPlace, Row> rows;
+    for (Row& row : read_journals(path_)) {
+        const auto at = case_index_.find(row.case_name);
+        if (at == case_index_.end()) continue;  // a case of this folder, not of this call
+        const MonteCarloOptions& wanted = cases_[at->second].config.montecarlo;
+        const bool deterministic = row.realization == deterministic_run;
+        if (deterministic ? !wanted.deterministic : row.realization >= wanted.realizations)
+            continue;
+        rows.try_emplace({at->second, row.realization}, std::move(row));
+    }
+    return rows;
+}
+
+std::size_t CampaignFolder::take_over(const fs::path& other) {
+    compare(read_json(other / "campaign.json"), read_json(path_ / "campaign.json"), other);
+    std::vector<Row> there = read_journals(other), mine = read_journals(path_), missing;
+    std::sort(mine.begin(), mine.end(), row_before);
+    std::sort(there.begin(), there.end(), row_before);
+    const auto same = [](const Row& a, const Row& b) {
+        return !row_before(a, b) && !row_before(b, a);
+    };
+    there.erase(std::unique(there.begin(), there.end(), same), there.end());
+    for (const Row& row : there) {
+        if (std::binary_search(mine.begin(), mine.end(), row, row_before)) continue;
+        if (row.failed && fs::exists(other / state_name(row))) {
+            core::create_folder(path_ / "failed");
+            core::write_file_atomically(path_ / state_name(row),
+                                        core::read_whole_file(other / state_name(row)));
+        }
+        missing.push_back(row);
+    }
+    journal_.append(missing);
+    return missing.size();
+}
+
+fs::path CampaignFolder::state_name(const Row& row) {
+    return fs::path("failed") / fmt::format("{}-{}.h5", file_name(row.case_name), row.realization);
+}
+
+void CampaignFolder::write_results() const {
+    const FileLock lock = writing();
+    std::vector<Row> rows, deterministic;
+    std::string failures = "case,realization,reason,state\n";
+    for (const auto& [place, row] : finished())
+        (place.realization == deterministic_run ? deterministic : rows).push_back(row);
+    for (auto* part : {&deterministic, &rows}) {
+        std::sort(part->begin(), part->end(), row_before);
+        for (const Row& row : *part) {
+            if (!row.failed) continue;
+            std::string reason = row.reason;
+            std::replace(reason.begin(), reason.end(), '"', '\'');
+            std::replace(reason.begin(), reason.end(), '\n', ' ');
+            const bool kept = fs::exists(path_ / state_name(row));
+            failures += fmt::format("{},{},\"{}\",{}\n", row.case_name, row.realization, reason,
+                                    kept ? state_name(row).string() : "");
+        }
+    }
+    core::write_file_atomically(path_ / "results.csv", rows_csv(rows));
+    core::write_file_atomically(path_ / "deterministic.csv", rows_csv(deterministic));
+    core::write_file_atomically(path_ / "failures.csv", failures);
+}
+
+}  // namespace grainfield::triaxial

@@ -1,0 +1,46 @@
+#pragma once
+// What a campaign has to do: which runs there are, and which rows each of them fills.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "triaxial/config/load_config.hpp"
+
+namespace grainfield::triaxial {
+
+/// Which of the realizations a process works on: those with realization mod shards = shard - 1.
+struct Shard {
+    std::int32_t shard = 1;   ///< from 1
+    std::int32_t shards = 1;  ///< how many there are
+};
+
+/// A row by its place in the campaign.
+struct RowPlace {
+    std::size_t case_index = 0;
+    std::int64_t realization = 0;
+
+    auto operator<=>(const RowPlace&) const = default;
+};
+
+/// One run and the rows that it fills: runs without a random field are the same for all
+/// realizations and for all cases that differ in their fields only.
+struct Work {
+    Config config;
+    std::int64_t realization = 0;  ///< of the field [-]
+    std::vector<RowPlace> rows;
+};
+
+/// All runs of a shard, realization by realization, so that every case grows alike; deterministic
+/// runs, if the campaign wants them, come first and belong to the first shard.
+std::vector<Work> plan_campaign(const std::vector<CampaignCase>& cases, const Shard& shard);
+
+/// A config as far as the packing depends on it, and as far as the sample at its isotropic stress
+/// does. Cases that agree in it share the packing, or the start.
+Config packing_part(const Config& config);
+Config start_part(const Config& config);
+
+/// A short name for a config: 16 digits of a hash of all its values.
+std::string config_hash(const Config& config);
+
+}  // namespace grainfield::triaxial

@@ -1,0 +1,68 @@
+#include "triaxial/campaign/row.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+namespace grainfield::triaxial {
+
+bool row_before(const Row& a, const Row& b) {
+    return std::tie(a.case_name, a.realization) < std::tie(b.case_name, b.realization);
+}
+
+std::string rows_csv(std::span<const Row> rows) {
+    std::string text =
+        "case,realization,seed,status,peak_deviator_stress_Pa,E50_Pa,friction_angle_rad,"
+        "axial_strain_at_peak,steps,wall_seconds,state_hash\n";
+    for (const Row& r : rows) {
+        fmt::format_to(std::back_inserter(text), "{},{},{},", r.case_name, r.realization, r.seed);
+        if (r.failed)
+            fmt::format_to(std::back_inserter(text), "failed,,,,,,{},\n", r.wall_seconds);
+        else
+            fmt::format_to(std::back_inserter(text), "done,{},{},{},{},{},{},{}\n",
+                           r.peak_deviator_stress, r.E50, r.friction_angle, r.axial_strain_at_peak,
+                           r.steps, r.wall_seconds, r.state_hash);
+    }
+    return text;
+}
+
+std::string row_line(const Row& r) {
+    const nlohmann::json json{{"case", r.case_name},
+                              {"realization", r.realization},
+                              {"seed", r.seed},
+                              {"failed", r.failed},
+                              {"peak_deviator_stress_Pa", r.peak_deviator_stress},
+                              {"E50_Pa", r.E50},
+                              {"friction_angle_rad", r.friction_angle},
+                              {"axial_strain_at_peak", r.axial_strain_at_peak},
+                              {"steps", r.steps},
+                              {"wall_seconds", r.wall_seconds},
+                              {"state_hash", r.state_hash},
+                              {"reason", r.reason}};
+    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+bool parse_row(std::string_view line, Row& row) {
+    const auto json = nlohmann::json::parse(line, nullptr, false);
+    if (!json.is_object()) return false;
+    try {
+        json.at("case").get_to(row.case_name);
+        json.at("realization").get_to(row.realization);
+        json.at("seed").get_to(row.seed);
+        json.at("failed").get_to(row.failed);
+        json.at("peak_deviator_stress_Pa").get_to(row.peak_deviator_stress);
+        json.at("E50_Pa").get_to(row.E50);
+        json.at("friction_angle_rad").get_to(row.friction_angle);
+        json.at("axial_strain_at_peak").get_to(row.axial_strain_at_peak);
+        json.at("steps").get_to(row.steps);
+        json.at("wall_seconds").get_to(row.wall_seconds);
+        json.at("state_hash").get_to(row.state_hash);
+        json.at("reason").get_to(row.reason);
+    } catch (const nlohmann::json::exception&) {
+        return false;
+    }
+    return true;
+}
+
+}  // namespace grainfield::triaxial

@@ -1,0 +1,42 @@
+#pragma once
+// One row of a campaign: what one realization gave, and how it stands in files.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace grainfield::triaxial {
+
+/// Realization of the rows of deterministic runs.
+inline constexpr std::int64_t deterministic_run = -1;
+
+struct Row {
+    std::string case_name;
+    std::int64_t realization = 0;  ///< deterministic_run for the run without a random field [-]
+    std::uint64_t seed = 0;        ///< of the case's field [-]
+    bool failed = false;
+    double peak_deviator_stress = 0;  ///< [Pa]
+    double E50 = 0;                   ///< [Pa]
+    double friction_angle = 0;        ///< macroscopic, at the peak [rad]
+    double axial_strain_at_peak = 0;  ///< [-]
+    std::int64_t steps = 0;           ///< [-]
+    double wall_seconds = 0;          ///< [s]
+    std::string state_hash;
+    std::string reason;  ///< why it failed
+
+    bool operator==(const Row&) const = default;
+};
+
+/// Order of results.csv: by case, then by realization.
+bool row_before(const Row& a, const Row& b);
+
+/// results.csv of the contract: header and rows as they come; numbers of failed rows are empty.
+std::string rows_csv(std::span<const Row> rows);
+
+/// A row as one line without its end, for the journal; numbers come back bit for bit.
+std::string row_line(const Row& row);
+/// The row of such a line. False if it is none.
+bool parse_row(std::string_view line, Row& row);
+
+}  // namespace grainfield::triaxial

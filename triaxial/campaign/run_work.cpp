@@ -1,0 +1,64 @@
+#include "triaxial/campaign/run_work.hpp"
+
+#include <chrono>
+#include <mutex>
+
+#include "core/errors.hpp"
+#include "core/files/folder.hpp"
+#include "core/kernel_choice.hpp"
+#include "triaxial/test/run_files.hpp"
+#include "triaxial/test/sample.hpp"
+
+namespace grainfield::triaxial {
+namespace {
+
+/// Shows nothing; keeps the state of a run that broke.
+class RunMonitor : public core::Monitor {
+  public:
+    RunMonitor(const std::atomic<bool>& stop, const std::filesystem::path& state)
+        : stop_(stop), state_(state) {}
+
+    bool stop_requested() const override { return stop_; }
+    void ended_early(const core::Simulation& simulation) override {
+        if (stop_) return;
+        static std::mutex one_at_a_time;  // HDF5 knows no threads
+        const std::lock_guard lock(one_at_a_time);
+        core::create_folder(state_.parent_path());
+        write_state(state_, simulation);
+    }
+
+  private:
+    const std::atomic<bool>& stop_;
+    const std::filesystem::path& state_;
+};
+
+}  // namespace
+
+Row run_work(const Work& work, const Sample& start, const std::filesystem::path& failed_state,
+             const std::atomic<bool>& stop) {
+    const auto begin = std::chrono::steady_clock::now();
+    RunMonitor monitor(stop, failed_state);
+    Row row;
+    try {
+        Sample sample = start;
+        map_field(work.config, work.realization, sample);
+        core::Simulation simulation =
+            make_simulation(std::move(sample), work.config,
+                            core::choose_kernels(work.config.solver), "the start of the campaign");
+        const TestResult result = run_test(simulation, work.config, monitor);
+        row.peak_deviator_stress = result.results.peak_deviator_stress;
+        row.E50 = result.results.E50;
+        row.friction_angle = result.results.friction_angle;
+        row.axial_strain_at_peak = result.results.axial_strain_at_peak;
+        row.steps = result.isotropic_steps + result.shear_steps;
+        row.state_hash = simulation.state_hash();
+    } catch (const SimulationError& error) {
+        row.failed = true;
+        row.reason = error.what();
+    }
+    row.wall_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return row;
+}
+
+}  // namespace grainfield::triaxial

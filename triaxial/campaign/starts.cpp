@@ -1,0 +1,103 @@
+#include "triaxial/campaign/starts.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "core/files/folder.hpp"
+#include "core/kernel_choice.hpp"
+#include "packing/isotropic.hpp"
+#include "packing/pack.hpp"
+#include "triaxial/campaign/file_lock.hpp"
+#include "triaxial/campaign/plan.hpp"
+#include "triaxial/test/packing_files.hpp"
+#include "triaxial/test/run_files.hpp"
+#include "triaxial/test/sample.hpp"
+
+namespace grainfield::triaxial {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Waits until no other process makes this file.
+FileLock lock_of(const fs::path& file, core::Monitor& monitor) {
+    bool waits = false;
+    return FileLock::wait_for(fs::path(file).replace_extension(".lock"), [&] {
+        if (!std::exchange(waits, true)) monitor.begin("waiting for " + file.string());
+        if (monitor.stop_requested()) throw Interrupted("stopped by the user");
+    });
+}
+
+void make_packing(const Config& config, const fs::path& file, core::Monitor& monitor) {
+    const auto start = std::chrono::steady_clock::now();
+    const packing::Packing packed =
+        packing::pack(config.packing, config.grading, packing_material(config), config.time,
+                      monitor, config.solver);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    write_packing(file, packed, seconds.count());
+}
+
+}  // namespace
+
+Starts::Starts(fs::path folder, std::optional<fs::path> packing)
+    : folder_(std::move(folder)), packing_(std::move(packing)) {
+    core::create_folder(folder_ / "packings");
+    core::create_folder(folder_ / "starts");
+}
+
+/// The packing that a config starts from, made if need be.
+fs::path Starts::packing_file(const Config& config, core::Monitor& monitor) {
+    if (packing_) return *packing_;
+    const Config part = packing_part(config);
+    const fs::path file = folder_ / "packings" / (config_hash(part) + ".h5");
+    const FileLock lock = lock_of(file, monitor);
+    // The .json comes last.
+    if (!fs::exists(json_beside(file))) make_packing(part, file, monitor);
+    return file;
+}
+
+std::optional<fs::path> Starts::file_of(const Config& config) const {
+    const fs::path file = folder_ / "starts" / (config_hash(start_part(config)) + ".h5");
+    return fs::exists(file) ? std::optional(file) : std::nullopt;
+}
+
+Starts::Start Starts::make(const Config& config, const fs::path& file, core::Monitor& monitor) {
+    const FileLock lock = lock_of(file, monitor);
+    if (!fs::exists(file)) {
+        const fs::path packing = packing_file(config, monitor);
+        core::SphereFile read = read_packing(packing, config);
+        // What the spheres bring themselves would be lost on the way: these runs start from here.
+        if (read.has_normal_stiffness || read.has_friction_angle)
+            return {sample_of(std::move(read), packing), {}};
+        core::Simulation simulation =
+            make_simulation(sample_of(std::move(read), packing), config,
+                            core::choose_kernels(config.solver), packing.string());
+        core::Driver driver(simulation, config.time, monitor);
+        monitor.begin("isotropic compression");
+        packing::compress_isotropically(driver, config.triaxial.confining_stress);
+        write_state(file, simulation, "start");
+    }
+    return {sample_of(read_packing(file, config), file), {}};
+}
+
+void Starts::prepare(const Config& config, core::Monitor& monitor) {
+    const Config part = start_part(config);
+    const std::string hash = config_hash(part);
+    if (starts_.contains(hash)) return;
+    try {
+        starts_[hash] = make(part, folder_ / "starts" / (hash + ".h5"), monitor);
+    } catch (const SimulationError& error) {
+        starts_[hash] = {{}, error.what()};
+    }
+}
+
+const Sample& Starts::of(const Config& config) const {
+    const Start& start = starts_.at(config_hash(start_part(config)));
+    if (!start.failure.empty())
+        throw SimulationError("the sample that it starts from: " + start.failure);
+    return start.sample;
+}
+
+}  // namespace grainfield::triaxial

@@ -1,0 +1,45 @@
+#pragma once
+// The samples that the runs of a campaign start from, each made once: packings, and from them
+// samples at their isotropic stress with the deterministic properties of the spheres.
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/monitor.hpp"
+#include "triaxial/test/triaxial_test.hpp"
+
+namespace grainfield::triaxial {
+
+class Starts {
+  public:
+    /// Keeps them in folder/packings and folder/starts. With `packing`, all runs start from that
+    /// file instead of packings of their own.
+    Starts(std::filesystem::path folder, std::optional<std::filesystem::path> packing);
+
+    /// Makes the start of a config, or reads it where it is there; other processes that want the
+    /// same wait. Uses all threads. A sample that cannot be made is remembered by its reason.
+    /// Throws what reading and writing throw, and Interrupted.
+    void prepare(const Config& config, core::Monitor& monitor);
+
+    /// The start of a prepared config. Throws SimulationError with the reason if it cannot be made.
+    const Sample& of(const Config& config) const;
+    /// Its file; none where the runs start from the file of a packing as it is.
+    std::optional<std::filesystem::path> file_of(const Config& config) const;
+
+  private:
+    struct Start {
+        Sample sample;
+        std::string failure;  // empty: none
+    };
+    std::filesystem::path packing_file(const Config& config, core::Monitor& monitor);
+    Start make(const Config& config, const std::filesystem::path& file, core::Monitor& monitor);
+
+    std::filesystem::path folder_;
+    std::optional<std::filesystem::path> packing_;
+    std::map<std::string, Start> starts_;  // by the hash of start_part()
+};
+
+}  // namespace grainfield::triaxial

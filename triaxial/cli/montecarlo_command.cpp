@@ -1,0 +1,120 @@
+// `montecarlo`: a campaign of realizations over cases.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "core/errors.hpp"
+#include "core/files/text_file.hpp"
+#include "triaxial/campaign/campaign.hpp"
+#include "triaxial/cli/commands.hpp"
+#include "triaxial/cli/print_row.hpp"
+
+namespace grainfield::triaxial {
+namespace {
+
+struct Arguments {
+    std::string config;
+    std::string out;
+    std::string shard;
+    std::optional<std::string> packing;
+    std::optional<std::int32_t> abreast;
+    std::vector<std::string> merge;
+};
+
+/// "I/N".
+Shard parse_shard(const std::string& text) {
+    if (text.empty()) return {};
+    std::string_view rest = text;
+    std::int64_t shard = 0, shards = 0;
+    const bool numbers =
+        core::parse_number(core::next_field(rest, '/'), shard) && core::parse_number(rest, shards);
+    if (!numbers || shard < 1 || shard > shards || shards > 1000000)
+        throw InputError(fmt::format(
+            "--shard = {}: I/N is expected, two whole numbers with 1 <= I <= N <= 1000000", text));
+    return {static_cast<std::int32_t>(shard), static_cast<std::int32_t>(shards)};
+}
+
+/// A line a case: how many rows, and the means.
+void print_cases(const std::vector<CampaignCase>& cases, const std::map<RowPlace, Row>& rows) {
+    for (std::size_t c = 0; c < cases.size(); ++c) {
+        std::size_t done = 0, failed = 0;
+        double peak = 0, E50 = 0;
+        for (auto at = rows.lower_bound({c, 0}); at != rows.end() && at->first.case_index == c;
+             ++at) {
+            failed += at->second.failed ? 1u : 0u;
+            if (at->second.failed) continue;
+            ++done;
+            peak += at->second.peak_deviator_stress;
+            E50 += at->second.E50;
+        }
+        std::string text = fmt::format("{} of {} done, {} failed", done,
+                                       cases[c].config.montecarlo.realizations, failed);
+        const auto n = static_cast<double>(done);
+        if (done > 0)
+            text += fmt::format("; means: peak {:.2f} kPa, E50 {:.3f} MPa", peak / n / 1e3,
+                                E50 / n / 1e6);
+        print_row(cases[c].name, text);
+    }
+}
+
+void run_montecarlo(const Arguments& arguments, Session& session) {
+    const std::vector<CampaignCase> cases = load_campaign(arguments.config, session.settings);
+    CampaignOptions options;
+    options.shard = parse_shard(arguments.shard);
+    options.threads = session.threads;
+    options.abreast = arguments.abreast;
+    if (arguments.packing) options.packing = *arguments.packing;
+    for (const CampaignCase& one : cases)
+        if (one.config.field.variable == randomfield::Variable::none &&
+            one.config.montecarlo.realizations > 1)
+            session.monitor.note(fmt::format(
+                "case \"{}\": field.variable is \"none\": all of its realizations are the same run",
+                one.name));
+    CampaignFolder folder(arguments.out, cases, options.packing, options.shard);
+    if (!arguments.merge.empty()) {
+        std::size_t taken = 0;
+        for (const std::string& other : arguments.merge) taken += folder.take_over(other);
+        folder.write_results();
+        print_row("rows taken over", fmt::format("{}", taken));
+        print_cases(cases, folder.finished());
+    } else {
+        const CampaignResult result = run_campaign(folder, cases, options, session.monitor);
+        print_row("rows computed", fmt::format("{}", result.computed));
+        print_cases(cases, result.rows);
+    }
+    print_row("results", (folder.path() / "results.csv").string());
+}
+
+}  // namespace
+
+void add_montecarlo_command(CLI::App& app, CommandLine& line) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App& command = line.add(
+        app, "montecarlo",
+        "Runs a campaign: every case of the config, [montecarlo] realizations of each. Stop it, "
+        "kill it, start it again: it goes on.",
+        "grainfield montecarlo campaign.toml --out campaign\n"
+        "  grainfield montecarlo campaign.toml --out campaign --shard 3/16",
+        [arguments](Session& session) { run_montecarlo(*arguments, session); });
+    command.add_option("config", arguments->config, "Config (TOML) of the campaign")->required();
+    command.add_option("--out", arguments->out, "Folder of the campaign")->required()->take_last();
+    command.add_option("--shard", arguments->shard,
+                       "I/N: only the I-th of N parts; parts may share a folder");
+    command.add_option("--packing", arguments->packing,
+                       "Packing that all runs start from, .h5 or .csv; without one each case's is "
+                       "made");
+    command
+        .add_option("--abreast", arguments->abreast,
+                    "Runs at a time, which share the threads (default: one a thread)")
+        ->check(CLI::Range(1, 1024));
+    command
+        .add_option("--merge", arguments->merge,
+                    "Folders of the same campaign whose rows are taken over; computes nothing")
+        ->expected(1, -1);
+}
+
+}  // namespace grainfield::triaxial
