@@ -16,13 +16,15 @@ namespace grainfield::core {
 /// Every random stream there is. The numbers are part of what a seed means: append, never renumber.
 /// All below 256.
 enum class Stream : std::uint32_t {
-    field_friction = 1,    ///< Gaussian field behind the friction angle, Eq. (7)
-    field_stiffness = 2,   ///< Gaussian field behind the normal stiffness, Eqs. (8)-(9)
-    packing_grading = 3,   ///< diameters of the block's spheres, Eq. (2)
-    packing_position = 4,  ///< where the spheres are placed before settling
-    packing_shaking = 5,   ///< phases and directions of the shaking
-    solver_start = 6,      ///< start vector of the time step's eigenvalue iterations
-    perturbation = 7,      ///< displacements that measure how chaotic a result is
+    field_friction = 1,        ///< Gaussian field behind the friction angle, Eq. (7)
+    field_stiffness = 2,       ///< Gaussian field behind the normal stiffness, Eqs. (8)-(9)
+    packing_grading = 3,       ///< diameters of the block's spheres, Eq. (2)
+    packing_position = 4,      ///< where the spheres are placed before settling
+    packing_shaking = 5,       ///< phases and directions of the shaking
+    solver_start = 6,          ///< start vector of the time step's eigenvalue iterations
+    perturbation = 7,          ///< displacements that measure how chaotic a result is
+    bootstrap = 8,             ///< which values a resample of a campaign's results holds
+    parametric_bootstrap = 9,  ///< samples of a fitted distribution, for p values
 };
 
 /// Philox4x32 with ten rounds: the raw bijection of the counter under the key.
