@@ -1,9 +1,14 @@
 // `report`: the page of a run, from what the run left in its folder.
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
+#include "core/errors.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/print_row.hpp"
+#include "triaxial/report/campaign/campaign_data.hpp"
+#include "triaxial/report/campaign/campaign_report.hpp"
 #include "triaxial/report/report.hpp"
 
 namespace grainfield::triaxial {
@@ -19,7 +24,14 @@ void run_report(const Arguments& arguments, Session& session) {
     session.monitor.begin("drawing the report");
     const std::vector<std::filesystem::path> companions(arguments.companions.begin(),
                                                         arguments.companions.end());
-    print_row("report", write_report(arguments.folder, companions).string());
+    if (!report::is_campaign(arguments.folder)) {
+        print_row("report", write_report(arguments.folder, companions).string());
+        return;
+    }
+    if (!companions.empty())
+        throw InputError(
+            fmt::format("{} is the folder of a campaign: it is reported alone", arguments.folder));
+    print_row("report", write_campaign_report(arguments.folder).string());
 }
 
 }  // namespace
@@ -27,10 +39,12 @@ void run_report(const Arguments& arguments, Session& session) {
 void add_report_command(CLI::App& app, CommandLine& line) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App& command = line.add(
-        app, "report", "Makes DIR/report.html, one page with the figures of a triaxial run.",
+        app, "report",
+        "Makes DIR/report.html, one page with the figures of a triaxial run or of a campaign.",
         "grainfield report run-100kPa run-200kPa",
         [arguments](Session& session) { run_report(*arguments, session); }, OnSignal::end_at_once);
-    command.add_option("dir", arguments->folder, "Folder of a triaxial run")->required();
+    command.add_option("dir", arguments->folder, "Folder of a triaxial run or a campaign")
+        ->required();
     command.add_option(
         "more", arguments->companions,
         "Folders of runs at other confining stresses, for a common failure envelope");

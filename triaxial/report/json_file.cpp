@@ -81,6 +81,18 @@ std::vector<double> JsonFile::numbers(std::string_view key) const {
     return values;
 }
 
+std::vector<std::pair<std::string, nlohmann::ordered_json>> JsonFile::members(
+    std::string_view key) const {
+    const nlohmann::ordered_json* value = find(key);
+    if (value == nullptr || !value->is_object()) fail(key, "an object is expected");
+    std::vector<std::pair<std::string, nlohmann::ordered_json>> entries;
+    for (const auto& [name, entry] : value->items()) {
+        if (!entry.is_object()) fail(key, "its entries must be objects");
+        entries.emplace_back(name, entry);
+    }
+    return entries;
+}
+
 std::vector<std::pair<std::string, std::string>> JsonFile::flattened() const {
     std::vector<std::pair<std::string, std::string>> leaves;
     const auto walk = [&](const auto& self, const std::string& prefix,

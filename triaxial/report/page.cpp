@@ -32,6 +32,21 @@ void Page::tables(std::span<const Table> tables) {
     body_ += "</div>\n";
 }
 
+void Page::columns(std::string_view title, std::span<const std::string> header,
+                   std::span<const std::vector<std::string>> rows) {
+    body_ += fmt::format("<table class=\"columns\">\n<caption>{}</caption>\n<thead><tr>", title);
+    for (const std::string& cell : header) body_ += fmt::format("<th scope=\"col\">{}</th>", cell);
+    body_ += "</tr></thead>\n<tbody>\n";
+    for (const std::vector<std::string>& row : rows) {
+        body_ += "<tr>";
+        for (std::size_t k = 0; k < row.size(); ++k)
+            body_ += k == 0 ? fmt::format("<th scope=\"row\">{}</th>", row[k])
+                            : fmt::format("<td>{}</td>", row[k]);
+        body_ += "</tr>\n";
+    }
+    body_ += "</tbody>\n</table>\n";
+}
+
 void Page::figures(std::span<const Figure> figures, std::string_view layout) {
     if (figures.empty()) return;
     body_ += fmt::format("<div class=\"{}\">\n", layout);

@@ -18,6 +18,10 @@ class Page {
 
     void section(std::string_view title);
     void tables(std::span<const Table> tables);
+    /// A table of columns over the width of the page; all cells are HTML, the first of a row its
+    /// name.
+    void columns(std::string_view title, std::span<const std::string> header,
+                 std::span<const std::vector<std::string>> rows);
     /// Figures side by side where the page is wide; they are numbered in the order of the page.
     void figures(std::span<const Figure> figures, std::string_view layout = "pair");
     void paragraph(std::string_view html, std::string_view style = "");

@@ -34,6 +34,14 @@ th { text-align: left; font-weight: 400; padding-right: 14px; }
 th small { display: block; color: var(--muted); font-size: 12.5px; line-height: 1.35; }
 td { text-align: right; font-variant-numeric: tabular-nums; overflow-wrap: anywhere;
      min-width: 7.5em; }
+table.columns { font-size: 13.5px; break-inside: auto; }
+table.columns th, table.columns td { padding: 4px 0 4px 14px; min-width: 0;
+                                     overflow-wrap: normal; }
+table.columns th:first-child { padding-left: 0; }
+table.columns thead th { text-align: right; color: var(--muted); vertical-align: bottom;
+                         border-bottom: 1px solid var(--ink); }
+table.columns thead th:first-child { text-align: left; }
+table.columns tr { break-inside: avoid; }
 code, pre, dl { font-family: ui-monospace, "SF Mono", Menlo, Consolas, "Liberation Mono",
                 "DejaVu Sans Mono", monospace; }
 code { font-size: .88em; }
@@ -71,7 +79,7 @@ dd { margin: 0; text-align: right; overflow-wrap: anywhere; }
   h1 { font-size: 19pt; }
   h2 { font-size: 13pt; margin: 18pt 0 8pt; break-after: avoid; }
   .lead { font-size: 12pt; }
-  table { font-size: 9pt; }
+  table, table.columns { font-size: 9pt; }
   th small, figcaption { font-size: 8pt; }
   .sample img { max-height: 205mm; }
   pre { max-height: none; overflow: visible; white-space: pre-wrap; font-size: 7.5pt; }

@@ -1,0 +1,181 @@
+// The report of a campaign: every figure and number is there, at any state of the campaign.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <optional>
+#include <regex>
+#include <set>
+
+#include "core/errors.hpp"
+#include "core/random.hpp"
+#include "tests/report/run_fixture.hpp"
+#include "triaxial/campaign/campaign_folder.hpp"
+#include "triaxial/report/campaign/campaign_figures.hpp"
+#include "triaxial/report/campaign/campaign_report.hpp"
+
+namespace grainfield::triaxial {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::read_file;
+using testing::write_file;
+
+constexpr const char* config = R"(
+field.variable = "stiffness"
+[montecarlo]
+realizations = 60
+[montecarlo.sweep]
+"field.correlation_length" = [[1, 0.1, 1], [10, 1, 10], [100, 10, 100]]
+)";
+
+class CampaignReport : public ::testing::Test {
+  protected:
+    /// A campaign whose first `rows` realizations of each case are done: E50 lognormal with a
+    /// median of 30 MPa, peaks about 120 kPa.
+    std::filesystem::path campaign(std::int64_t rows, const std::string& text = config) const {
+        const auto dir = folder_.path() / "campaign";
+        write_file(folder_.path() / "c.toml", text);
+        const auto cases = load_campaign(folder_.path() / "c.toml");
+        CampaignFolder folder(dir, cases, std::nullopt, {});
+        const core::RandomStream stream(7, core::Stream::perturbation);
+        for (std::size_t c = 0; c < cases.size(); ++c)
+            for (std::int64_t k = deterministic_run; k < rows; ++k) {
+                Row row;
+                row.case_name = cases[c].name;
+                row.realization = k;
+                const double u = stream.normal(c, static_cast<std::uint64_t>(k + 1));
+                row.E50 = k < 0 ? 31e6 : 30e6 * std::exp(0.2 * u);
+                row.peak_deviator_stress = k < 0 ? 121e3 : 120e3 + 2e3 * u;
+                row.wall_seconds = 2;
+                row.failed = k == 5 && c == 1;
+                if (row.failed) row.reason = "sphere 7 is <lost>";
+                folder.append({{row}});
+            }
+        folder.write_results();
+        return dir;
+    }
+
+    testing::TestFolder folder_;
+};
+
+std::size_t occurrences(const std::string& text, const std::string& what) {
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++count;
+    return count;
+}
+
+TEST_F(CampaignReport, HasEveryFigureAndTable) {
+    const std::string page = read_file(write_campaign_report(campaign(60)));
+    // Trends over the correlation length, and of each case the convergence, histogram and P-P
+    // plot: of two quantities each.
+    constexpr std::size_t figures = 2 * (1 + 3 * 3);
+    EXPECT_EQ(occurrences(page, "<svg"), figures);
+    for (std::size_t k = 1; k <= figures; ++k)
+        EXPECT_THAT(page, HasSubstr(fmt::format("<b>Figure {}.</b>", k)));
+    std::set<std::string> ids;
+    const std::regex id(" id=['\"]([^'\"]+)['\"]");
+    for (std::sregex_iterator at(page.begin(), page.end(), id), end; at != end; ++at)
+        EXPECT_TRUE(ids.insert((*at)[1]).second) << (*at)[1];
+    EXPECT_EQ(occurrences(page, "<table class=\"columns\">"), 4u);
+    EXPECT_THAT(page, HasSubstr("179 realizations over 3 cases are done, 1 failed"));
+    EXPECT_THAT(page, HasSubstr("sphere 7 is &lt;lost&gt;"));
+    EXPECT_THAT(page, HasSubstr("Correlation length"));
+    // Nothing from outside.
+    for (const char* outside : {"src=\"http", "href=\"http", "@import", "<script", "<link"})
+        EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+}
+
+TEST_F(CampaignReport, StatisticsAreThoseOfTheRows) {
+    const auto dir = campaign(60);
+    write_campaign_report(dir);
+    // E50 of the first case, from the table of results.
+    double sum = 0, squares = 0;
+    int n = 0;
+    std::istringstream lines(read_file(dir / "results.csv"));
+    const std::string name = "correlation_length=100x10x100";
+    for (std::string line; std::getline(lines, line);) {
+        std::vector<std::string> f;
+        std::istringstream fields(line);
+        for (std::string field; std::getline(fields, field, ',');) f.push_back(field);
+        if (f[0] != name || f[3] != "done") continue;
+        const double E50 = std::stod(f[5]) / 1e6;
+        ++n;
+        sum += E50;
+        squares += E50 * E50;
+    }
+    ASSERT_EQ(n, 60);
+    const double mean = sum / n, deviation = std::sqrt((squares - n * mean * mean) / (n - 1));
+    const std::string table = read_file(dir / "statistics.csv");
+    const std::string begin = name + ",e50,MPa,60,0,31,";
+    const auto at = table.find(begin);
+    ASSERT_NE(at, std::string::npos) << table;
+    std::istringstream rest(table.substr(at + begin.size()));
+    std::vector<double> numbers;
+    for (std::string field; numbers.size() < 6 && std::getline(rest, field, ',');)
+        numbers.push_back(std::stod(field));
+    EXPECT_NEAR(numbers[0], mean, 1e-12 * mean);
+    EXPECT_LT(numbers[1], mean);
+    EXPECT_GT(numbers[2], mean);
+    EXPECT_NEAR(numbers[3], deviation, 1e-9 * deviation);
+    EXPECT_LT(numbers[4], deviation);
+    EXPECT_GT(numbers[5], deviation);
+}
+
+TEST_F(CampaignReport, OfACampaignThatHasJustBegunIsWhole) {
+    for (const std::int64_t rows : {0, 1, 2, 5, 9}) {
+        const std::string page = read_file(write_campaign_report(campaign(rows)));
+        EXPECT_THAT(page, HasSubstr("Case correlation_length=10x1x10")) << rows;
+        EXPECT_EQ(occurrences(page, "<svg"), rows < 2 ? 0u : rows < 8 ? 2u + 6u : 2u + 18u) << rows;
+    }
+}
+
+TEST_F(CampaignReport, TrendsGroupTheCasesThatAgreeInAllElse) {
+    const auto dir = campaign(3, std::string(config) + "'field.stiffness.cov' = [0.4, 0.8]\n");
+    const report::CampaignData data = report::read_campaign_data(dir);
+    EXPECT_THAT(data.varying,
+                ::testing::ElementsAre("field.correlation_length", "field.stiffness.cov"));
+    const auto trends = report::trends_over(data, "field.correlation_length");
+    ASSERT_EQ(trends.size(), 2u);
+    EXPECT_EQ(trends[0].name, "cov = 0.4");
+    ASSERT_EQ(trends[0].points.size(), 3u);
+    EXPECT_EQ(trends[0].points[0].x, 0.1);
+    EXPECT_EQ(trends[0].points[2].x, 10);
+    EXPECT_EQ(report::trends_over(data, "field.stiffness.cov").size(), 3u);
+}
+
+TEST_F(CampaignReport, DamagedTablesAreNamed) {
+    const auto dir = campaign(3);
+    std::string text = read_file(dir / "results.csv");
+    text.replace(text.find(",done,") + 6, 3, "abc");
+    write_file(dir / "results.csv", text);
+    try {
+        write_campaign_report(dir);
+        FAIL() << "no error";
+    } catch (const FileError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("results.csv:2: a number is expected"));
+    }
+    EXPECT_FALSE(std::filesystem::exists(dir / "report.html"));
+}
+
+TEST_F(CampaignReport, RendersInABrowser) {
+    const std::filesystem::path chromium = "/usr/bin/chromium";
+    if (!std::filesystem::exists(chromium)) GTEST_SKIP() << chromium << " is not installed";
+    const auto page = write_campaign_report(campaign(60));
+    const auto picture = folder_.path() / "page.png";
+    const std::string command = fmt::format(
+        "timeout 120 {} --headless --no-sandbox --disable-gpu --disable-quic --no-first-run "
+        "--disable-background-networking --disable-component-update --disable-sync "
+        "--hide-scrollbars --user-data-dir='{}' --window-size=1100,7000 --screenshot='{}' "
+        "'file://{}' >'{}' 2>&1",
+        chromium.string(), (folder_.path() / "profile").string(), picture.string(), page.string(),
+        (folder_.path() / "chromium.log").string());
+    ASSERT_EQ(std::system(command.c_str()), 0) << read_file(folder_.path() / "chromium.log");
+    // A blank page of this size compresses to some 30 kB.
+    EXPECT_GT(std::filesystem::file_size(picture), 400'000U);
+}
+
+}  // namespace
+}  // namespace grainfield::triaxial

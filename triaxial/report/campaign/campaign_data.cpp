@@ -1,0 +1,126 @@
+#include "triaxial/report/campaign/campaign_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/errors.hpp"
+#include "core/files/text_file.hpp"
+#include "triaxial/config/toml_text.hpp"
+#include "triaxial/config/toml_value.hpp"
+#include "triaxial/report/json_file.hpp"
+
+namespace grainfield::triaxial::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The rows of a results table.
+std::vector<triaxial::Row> read_rows(const fs::path& path) {
+    std::vector<triaxial::Row> rows;
+    const std::string text = core::read_whole_file(path);
+    core::LineReader lines(text);
+    std::string_view line;
+    const auto fail = [&](const char* what) {
+        throw FileError(fmt::format("{}:{}: {}", path.string(), lines.number(), what));
+    };
+    if (!lines.next(line) || std::string(line) + "\n" != rows_csv({}))
+        fail("not the header of a table of results");
+    while (lines.next(line)) {
+        std::vector<std::string_view> fields;
+        for (std::string_view rest = line; fields.size() < 11;)
+            fields.push_back(core::next_field(rest, ','));
+        triaxial::Row row;
+        row.case_name = fields[0];
+        row.failed = fields[3] == "failed";
+        row.state_hash = fields[10];
+        const auto number = [&](std::size_t at, auto& value) {
+            if (!core::parse_number(fields[at], value)) fail("a number is expected");
+        };
+        number(1, row.realization);
+        number(9, row.wall_seconds);
+        if (!row.failed) {
+            number(4, row.peak_deviator_stress);
+            number(5, row.E50);
+            number(6, row.friction_angle);
+            number(7, row.axial_strain_at_peak);
+            number(8, row.steps);
+        }
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+void add_leaves(const TomlValue& value, const std::string& path,
+                std::map<std::string, std::string>& leaves) {
+    const auto* table = std::get_if<TomlValue::Table>(&value.data);
+    if (table == nullptr) {
+        leaves[path] = toml_text(value);
+        return;
+    }
+    for (const TomlEntry& entry : *table)
+        add_leaves(entry.value, path.empty() ? entry.key : path + "." + entry.key, leaves);
+}
+
+}  // namespace
+
+bool is_campaign(const fs::path& folder) {
+    return fs::exists(folder / "campaign.json");
+}
+
+CampaignData read_campaign_data(const fs::path& folder) {
+    CampaignData data;
+    data.path = folder;
+    const JsonFile json(folder / "campaign.json");
+    data.version = json.optional_text("version").value_or("unknown");
+    std::map<std::string, std::size_t> index;
+    for (const auto& [name, one] : json.members("cases")) {
+        CaseData& made = data.cases.emplace_back();
+        index[name] = data.cases.size() - 1;
+        made.name = name;
+        made.kernels = one.value("kernels", "");
+        made.config = one.value("config", "");
+        add_leaves(parse_toml(made.config, (folder / "campaign.json").string()), "", made.values);
+    }
+    const auto place = [&](const triaxial::Row& row) -> CaseData& {
+        const auto at = index.find(row.case_name);
+        if (at == index.end())
+            throw FileError(fmt::format("{}: case \"{}\" of results.csv is not there",
+                                        (folder / "campaign.json").string(), row.case_name));
+        return data.cases[at->second];
+    };
+    for (triaxial::Row& row : read_rows(folder / "results.csv")) {
+        CaseData& one = place(row);
+        data.wall_seconds += row.wall_seconds;
+        if (row.failed)
+            ++one.failed;
+        else
+            one.rows.push_back(std::move(row));
+    }
+    for (triaxial::Row& row : read_rows(folder / "deterministic.csv"))
+        if (CaseData& one = place(row); !row.failed) one.deterministic = std::move(row);
+    const std::string failures = core::read_whole_file(folder / "failures.csv");
+    core::LineReader lines(failures);
+    std::string_view line;
+    for (lines.next(line); lines.next(line);) data.failures.emplace_back(line);
+
+    std::set<std::string> keys;
+    for (const CaseData& one : data.cases)
+        for (const auto& [key, value] : one.values)
+            for (const CaseData& other : data.cases) {
+                const auto at = other.values.find(key);
+                if (at == other.values.end() || at->second != value) keys.insert(key);
+            }
+    data.varying.assign(keys.begin(), keys.end());
+    return data;
+}
+
+std::vector<double> values_of(const CaseData& one, const Quantity& quantity) {
+    std::vector<double> values;
+    for (const triaxial::Row& row : one.rows)
+        values.push_back(row.*quantity.value * quantity.scale);
+    return values;
+}
+
+}  // namespace grainfield::triaxial::report

@@ -1,0 +1,35 @@
+#pragma once
+// What is said of one quantity of one case, for the tables and the CSV.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "triaxial/report/campaign/campaign_data.hpp"
+#include "triaxial/statistics/distributions.hpp"
+#include "triaxial/statistics/goodness_of_fit.hpp"
+#include "triaxial/statistics/sample.hpp"
+
+namespace grainfield::triaxial::report {
+
+/// Empty where there are too few values (see statistics/).
+struct CaseStatistics {
+    std::size_t count = 0;                                       ///< values [-]
+    std::optional<double> mean, deviation, variation, skewness;  ///< variation, skewness [-]
+    std::optional<statistics::Interval> mean_interval, deviation_interval, variation_interval;
+    std::optional<double> deterministic;
+    std::vector<statistics::Fit> fits;  ///< best first; none below eight values
+    // Of the lognormal distribution.
+    std::optional<statistics::ChiSquareTest> chi_square;
+    std::optional<statistics::DistanceTest> kolmogorov_smirnov, anderson_darling;
+};
+
+CaseStatistics case_statistics(const CaseData& one, const Quantity& quantity);
+
+/// The fit of a family among them; null if there is none.
+const statistics::Fit* fit_of(const CaseStatistics& statistics, statistics::Family family);
+
+/// A row a case and quantity, with header; numbers in the quantities' units.
+std::string statistics_csv(const CampaignData& data);
+
+}  // namespace grainfield::triaxial::report
