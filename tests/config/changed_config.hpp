@@ -56,6 +56,8 @@ isa = "avx2"
 [montecarlo]
 realizations = 3
 deterministic = false
+target_mean_error = 0.02
+target_sd_error = 0.2
 )";
 
 inline Config changed_config() {
@@ -75,7 +77,7 @@ inline Config changed_config() {
     c.triaxial = {200e3, 0.02, 0.05, 9.81};
     c.time = {1e-6, 0.7, 2};
     c.solver = {core::Precision::double_, core::Isa::avx2};
-    c.montecarlo = {3, false};
+    c.montecarlo = {3, false, 0.02, 0.2};
     return c;
 }
 

@@ -48,6 +48,8 @@ inline void expect_equal(const Config& a, const Config& b) {
     EXPECT_EQ(a.solver.isa, b.solver.isa);
     EXPECT_EQ(a.montecarlo.realizations, b.montecarlo.realizations);
     EXPECT_EQ(a.montecarlo.deterministic, b.montecarlo.deterministic);
+    EXPECT_EQ(a.montecarlo.target_mean_error, b.montecarlo.target_mean_error);
+    EXPECT_EQ(a.montecarlo.target_sd_error, b.montecarlo.target_sd_error);
 }
 
 }  // namespace grainfield::triaxial

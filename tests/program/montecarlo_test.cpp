@@ -167,6 +167,30 @@ TEST_F(MonteCarlo, RowsAreTheSameOnAnyThreadsAndOfTheTriaxialCommand) {
     EXPECT_THAT(table("one"), testing::ContainsRegex("cov=0.8,5,1,done,.*" + hash));
 }
 
+TEST_F(MonteCarlo, ACaseEndsOnceItsIntervalsAreNarrowEnoughAtTheSameRow) {
+    const std::vector<std::string> target{"--set", "montecarlo.realizations=200", "--set",
+                                          "montecarlo.target_mean_error=0.1", "--threads"};
+    for (const char* threads : {"1", "3"}) {
+        std::vector<std::string> more = target;
+        more.emplace_back(threads);
+        const Outcome outcome = run(threads, more);
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+    }
+    const std::string one = table("1");
+    EXPECT_EQ(one, table("3"));
+    // The case that varies more takes more realizations; none takes all.
+    const auto count = [&](const std::string& name) {
+        long n = 0;
+        std::istringstream lines(one);
+        for (std::string line; std::getline(lines, line);) n += line.starts_with(name);
+        return n;
+    };
+    EXPECT_GE(count("cov=0.4"), 20);
+    EXPECT_GE(count("cov=0.8"), count("cov=0.4"));
+    EXPECT_LT(count("cov=0.8"), 200);
+    EXPECT_LT(count("cov=0.4"), 200);
+}
+
 TEST_F(MonteCarlo, TheSecondProcessSaysSoAndStops) {
     Outcome second;
     const Outcome first = run("out", {"--threads", "1"},

@@ -16,6 +16,7 @@
 #include "triaxial/campaign/progress.hpp"
 #include "triaxial/campaign/run_work.hpp"
 #include "triaxial/campaign/starts.hpp"
+#include "triaxial/campaign/stopping.hpp"
 
 namespace grainfield::triaxial {
 namespace {
@@ -43,7 +44,9 @@ class Crew {
   public:
     Crew(CampaignFolder& folder, const std::vector<CampaignCase>& cases, const Starts& starts,
          std::vector<Work> todo)
-        : folder_(folder), cases_(cases), starts_(starts), todo_(std::move(todo)) {}
+        : folder_(folder), cases_(cases), starts_(starts), todo_(std::move(todo)), needs_(cases) {
+        learn();
+    }
 
     /// Works until all is done, something broke, or the monitor asks to stop.
     void run(int abreast, int threads, Progress& progress, core::Monitor& monitor) {
@@ -60,6 +63,7 @@ class Crew {
             lock.unlock();
             folder_.write_results();
             lock.lock();
+            learn();
             written = Clock::now();
         }
         lock.unlock();
@@ -67,6 +71,7 @@ class Crew {
         if (error_) std::rethrow_exception(error_);
     }
     bool stopped() const { return stop_; }
+    std::size_t computed() const { return computed_; }
 
   private:
     void member(int threads, Progress& progress) {
@@ -104,9 +109,16 @@ class Crew {
 
     const Work* next(Progress& progress) {
         const std::lock_guard lock(mutex_);
-        if (stop_ || taken_ == todo_.size()) return nullptr;
-        progress.started();
-        return &todo_[taken_++];
+        while (!stop_ && taken_ < todo_.size()) {
+            const Work& work = todo_[taken_++];
+            if (std::ranges::any_of(work.rows,
+                                    [&](const RowPlace& p) { return needs_.wants(p); })) {
+                progress.started();
+                return &work;
+            }
+            progress.skipped(work.rows.size());
+        }
+        return nullptr;
     }
 
     void finish(const Work& work, const Row& result, Progress& progress) {
@@ -114,13 +126,21 @@ class Crew {
         const std::lock_guard lock(mutex_);
         folder_.append(rows);
         progress.finished(rows);
+        computed_ += rows.size();
+        for (std::size_t r = 0; r < rows.size(); ++r) needs_.add(work.rows[r], rows[r]);
+    }
+
+    /// What other shards have found out counts, too.
+    void learn() {
+        for (const auto& [place, row] : folder_.finished()) needs_.add(place, row);
     }
 
     CampaignFolder& folder_;
     const std::vector<CampaignCase>& cases_;
     const Starts& starts_;
     std::vector<Work> todo_;
-    std::size_t taken_ = 0;
+    Stopping needs_;
+    std::size_t taken_ = 0, computed_ = 0;
     int working_ = 0;
     std::atomic<bool> stop_ = false;
     std::exception_ptr error_;
@@ -150,7 +170,6 @@ std::vector<Work> left_of(std::vector<Work> plan, const std::map<RowPlace, Row>&
 
 CampaignResult run_campaign(CampaignFolder& folder, const std::vector<CampaignCase>& cases,
                             const CampaignOptions& options, core::Monitor& monitor) {
-    const std::size_t before = folder.finished().size();
     std::vector<Work> todo =
         left_of(plan_campaign(cases, options.shard), folder.finished(), cases, folder);
     Starts starts(folder.path(), options.packing);
@@ -165,9 +184,7 @@ CampaignResult run_campaign(CampaignFolder& folder, const std::vector<CampaignCa
     monitor.begin("campaign");
     crew.run(abreast, threads, progress, monitor);
     folder.write_results();
-    CampaignResult result;
-    result.rows = folder.finished();
-    result.computed = result.rows.size() - std::min(before, result.rows.size());
+    const CampaignResult result{folder.finished(), crew.computed()};
     if (crew.stopped())
         throw Interrupted(fmt::format("stopped by the user; {}; the same command goes on from here",
                                       progress.counts()));

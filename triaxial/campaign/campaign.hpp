@@ -21,7 +21,7 @@ struct CampaignOptions {
 
 struct CampaignResult {
     std::map<RowPlace, Row> rows;  ///< all that are finished, other shards' too
-    std::size_t computed = 0;      ///< rows added by this call [-]
+    std::size_t computed = 0;      ///< rows that runs of this call gave [-]
 };
 
 /// Computes the rows of a shard that are not there yet. Each is on the disk before the next run of

@@ -11,6 +11,7 @@
 #include "core/files/folder.hpp"
 #include "core/files/text_file.hpp"
 #include "core/kernel_choice.hpp"
+#include "triaxial/campaign/stopping.hpp"
 #include "triaxial/config/write_config.hpp"
 
 namespace grainfield::triaxial {
@@ -174,6 +175,9 @@ std::map<RowPlace, Row> CampaignFolder::finished() const {
             continue;
         rows.try_emplace({at->second, row.realization}, std::move(row));
     }
+    Stopping stopping(cases_);
+    for (const auto& [place, row] : rows) stopping.add(place, row);
+    std::erase_if(rows, [&](const auto& entry) { return !stopping.wants(entry.first); });
     return rows;
 }
 

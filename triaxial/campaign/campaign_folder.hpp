@@ -31,7 +31,8 @@ class CampaignFolder {
                    const std::optional<std::filesystem::path>& packing, const Shard& shard);
 
     const std::filesystem::path& path() const { return path_; }
-    /// Finished rows of this campaign, whichever shard they are from, read anew.
+    /// Finished rows of this campaign, whichever shard they are from, read anew; only those that
+    /// the config asks for (stopping.hpp).
     std::map<RowPlace, Row> finished() const;
     /// Adds finished rows; they are on the disk when it returns.
     void append(std::span<const Row> rows) { journal_.append(rows); }

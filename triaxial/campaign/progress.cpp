@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "triaxial/statistics/moments.hpp"
+
 namespace grainfield::triaxial {
 
 Progress::Progress(const std::map<RowPlace, Row>& finished, const std::vector<Work>& todo)
@@ -32,6 +34,12 @@ void Progress::finished(std::span<const Row> rows) {
     for (const Row& row : rows) count(row);
 }
 
+void Progress::skipped(std::size_t rows) {
+    const std::lock_guard lock(mutex_);
+    total_ -= rows;
+    --runs_;
+}
+
 std::string Progress::counts() const {
     const std::lock_guard lock(mutex_);
     return fmt::format("{} of {} rows are done, {} of them failed", done_, total_, failed_);
@@ -45,6 +53,11 @@ void Progress::show(core::Monitor& monitor) const {
     if (runs_done_ > 0)
         line += fmt::format(", {:.0f} runs/h",
                             3600 * static_cast<double>(runs_done_) / elapsed.count());
+    if (const auto at = E50_.find(last_case_); at != E50_.end())
+        if (const auto interval = statistics::interval_of_mean(at->second))
+            line += fmt::format(", {}: E50 {:.2f} ± {:.2f} MPa", last_case_,
+                                *statistics::mean(at->second) / 1e6,
+                                0.5 * (interval->upper - interval->lower) / 1e6);
     const double share =
         static_cast<double>(runs_done_) / static_cast<double>(std::max<std::size_t>(1, runs_));
     monitor.progress(runs_done_ > 0 ? share : -1, -1, line);

@@ -22,6 +22,7 @@ class Progress {
 
     void started();
     void finished(std::span<const Row> rows);
+    void skipped(std::size_t rows);  ///< a run that is not needed any more
     void show(core::Monitor& monitor) const;
     /// "12 of 250 rows are done, 1 of them failed".
     std::string counts() const;

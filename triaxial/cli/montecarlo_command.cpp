@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "triaxial/campaign/campaign.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/print_row.hpp"
+#include "triaxial/statistics/moments.hpp"
 
 namespace grainfield::triaxial {
 namespace {
@@ -38,25 +38,32 @@ Shard parse_shard(const std::string& text) {
     return {static_cast<std::int32_t>(shard), static_cast<std::int32_t>(shards)};
 }
 
+/// "24.12 ± 0.31", half the 95 % interval.
+std::string mean_text(const std::vector<double>& values) {
+    const auto interval = statistics::interval_of_mean(values);
+    return fmt::format("{:.2f}{}", *statistics::mean(values),
+                       interval
+                           ? fmt::format(" ± {:.2f}", 0.5 * (interval->upper - interval->lower))
+                           : std::string());
+}
+
 /// A line a case: how many rows, and the means.
 void print_cases(const std::vector<CampaignCase>& cases, const std::map<RowPlace, Row>& rows) {
     for (std::size_t c = 0; c < cases.size(); ++c) {
-        std::size_t done = 0, failed = 0;
-        double peak = 0, E50 = 0;
+        std::size_t failed = 0;
+        std::vector<double> peak, E50;
         for (auto at = rows.lower_bound({c, 0}); at != rows.end() && at->first.case_index == c;
              ++at) {
             failed += at->second.failed ? 1u : 0u;
             if (at->second.failed) continue;
-            ++done;
-            peak += at->second.peak_deviator_stress;
-            E50 += at->second.E50;
+            peak.push_back(at->second.peak_deviator_stress / 1e3);
+            E50.push_back(at->second.E50 / 1e6);
         }
-        std::string text = fmt::format("{} of {} done, {} failed", done,
+        std::string text = fmt::format("{} of {} done, {} failed", E50.size(),
                                        cases[c].config.montecarlo.realizations, failed);
-        const auto n = static_cast<double>(done);
-        if (done > 0)
-            text += fmt::format("; means: peak {:.2f} kPa, E50 {:.3f} MPa", peak / n / 1e3,
-                                E50 / n / 1e6);
+        if (!E50.empty())
+            text +=
+                fmt::format("; means: peak {} kPa, E50 {} MPa", mean_text(peak), mean_text(E50));
         print_row(cases[c].name, text);
     }
 }

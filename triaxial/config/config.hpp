@@ -31,10 +31,14 @@ struct TriaxialOptions {
     double gravity = 0;                      ///< along -y [m/s2]
 };
 
-/// The campaign around the runs; its sweep and cases are checked on loading and not kept here.
+/// The campaign around the runs; its sweep and cases are in load_campaign().
 struct MonteCarloOptions {
     std::int32_t realizations = 250;  ///< of each case [-]
     bool deterministic = true;        ///< the deterministic run of each case beside it [-]
+    /// A case stops sooner once the 95 % intervals of peak and E50 are within this share of their
+    /// means [-], and those of the standard deviations within this share of these [-].
+    std::optional<double> target_mean_error = std::nullopt;
+    std::optional<double> target_sd_error = std::nullopt;
 };
 
 struct Config {

@@ -70,10 +70,14 @@ void add_keys(Keys& keys, TriaxialOptions& triaxial) {
 }
 
 void add_keys(Keys& keys, MonteCarloOptions& montecarlo) {
-    auto& [realizations, deterministic] = montecarlo;
+    auto& [realizations, deterministic, mean_error, sd_error] = montecarlo;
     keys.push_back({"montecarlo.realizations", slot(realizations, 1), "of each case"});
     keys.push_back({"montecarlo.deterministic", slot(deterministic),
                     "the deterministic run of each case beside it"});
+    keys.push_back({"montecarlo.target_mean_error", slot(mean_error, positive),
+                    "stop a case once the 95 % intervals of its means are within this share"});
+    keys.push_back({"montecarlo.target_sd_error", slot(sd_error, positive),
+                    "and those of its standard deviations within this"});
 }
 
 }  // namespace
