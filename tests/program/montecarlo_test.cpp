@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <memory>
 #include <sstream>
 
@@ -123,6 +125,25 @@ TEST_F(MonteCarlo, KilledAgainAndAgainItEndsWithTheSameResults) {
     EXPECT_EQ(again.code, 0);
     EXPECT_THAT(again.out, HasSubstr("rows computed           0"));
     EXPECT_EQ(table("killed"), whole);
+}
+
+TEST_F(MonteCarlo, AFullDiskEndsItAndLosesNothing) {
+    ASSERT_EQ(run("whole").code, 0);
+    ASSERT_EQ(run("full", {"--set", "montecarlo.realizations=1"}).code, 0);
+    const std::size_t before = rows("full");
+    // No file may grow beyond 4 KiB: the journal soon cannot. The shell's ignored signal is passed
+    // on, so that the program sees the error of its write.
+    std::string command = "trap '' XFSZ; ulimit -f 4; exec " GRAINFIELD_PROGRAM;
+    for (const std::string& word : words("full")) command += " '" + word + "'";
+    const std::string log = place_.path("full.log");
+    const int status = std::system(("bash -c \"" + command + "\" >'" + log + "' 2>&1").c_str());
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 4) << place_.read("full.log");
+    EXPECT_THAT(place_.read("full.log"), HasSubstr("cannot be written"));
+    EXPECT_GT(rows("full"), before);
+    EXPECT_LT(rows("full"), 18u);
+    EXPECT_EQ(run("full").code, 0);
+    EXPECT_EQ(table("full"), table("whole"));
 }
 
 TEST_F(MonteCarlo, InterruptedItSaysHowFarItIs) {

@@ -54,6 +54,21 @@ class Crew {
         working_ = abreast;
         for (int m = 0; m < abreast; ++m)
             members.emplace_back([this, threads, &progress] { member(threads, progress); });
+        try {
+            look_after(progress, monitor);
+        } catch (...) {  // or the members would work on to the end
+            stop_ = true;
+            throw;
+        }
+        members.clear();
+        if (error_) std::rethrow_exception(error_);
+    }
+    bool stopped() const { return stop_; }
+    std::size_t computed() const { return computed_; }
+
+  private:
+    /// Until all members have ended: shows progress, writes results now and then.
+    void look_after(Progress& progress, core::Monitor& monitor) {
         auto written = Clock::now();
         std::unique_lock lock(mutex_);
         while (!changed_.wait_for(lock, look_interval, [this] { return working_ == 0; })) {
@@ -66,14 +81,8 @@ class Crew {
             learn();
             written = Clock::now();
         }
-        lock.unlock();
-        members.clear();
-        if (error_) std::rethrow_exception(error_);
     }
-    bool stopped() const { return stop_; }
-    std::size_t computed() const { return computed_; }
 
-  private:
     void member(int threads, Progress& progress) {
         omp_set_num_threads(threads);
         tbb::task_arena arena(threads);
@@ -98,7 +107,7 @@ class Crew {
 
     Row computed(const Work& work, const std::filesystem::path& state) {
         try {
-            return run_work(work, starts_.of(work.config), state, stop_);
+            return run_work(work, starts_.of(*work.config), state, stop_);
         } catch (const SimulationError& error) {  // there is no start
             Row row;
             row.failed = true;
@@ -173,7 +182,7 @@ CampaignResult run_campaign(CampaignFolder& folder, const std::vector<CampaignCa
     std::vector<Work> todo =
         left_of(plan_campaign(cases, options.shard), folder.finished(), cases, folder);
     Starts starts(folder.path(), options.packing);
-    for (const Work& work : todo) starts.prepare(work.config, monitor);
+    for (const Work& work : todo) starts.prepare(*work.config, monitor);
 
     // One run a thread: no thread ever waits for another. Fewer runs than threads share them.
     const int runs = static_cast<int>(std::min<std::size_t>(todo.size(), 1024));

@@ -26,15 +26,17 @@ Config run_config(const Config& config, bool deterministic) {
 
 std::vector<Work> plan_campaign(const std::vector<CampaignCase>& cases, const Shard& shard) {
     struct Run {
-        Config config;
+        std::shared_ptr<const Config> config;
         std::string hash;
     };
     std::vector<Run> random, deterministic;
     std::int64_t most = 0;
     for (const CampaignCase& one : cases) {
         for (auto* runs : {&random, &deterministic}) {
-            const Config config = run_config(one.config, runs == &deterministic);
-            runs->push_back({config, config_hash(config)});
+            auto config =
+                std::make_shared<const Config>(run_config(one.config, runs == &deterministic));
+            std::string hash = config_hash(*config);
+            runs->push_back({std::move(config), std::move(hash)});
         }
         most = std::max<std::int64_t>(most, one.config.montecarlo.realizations);
     }
@@ -42,7 +44,7 @@ std::vector<Work> plan_campaign(const std::vector<CampaignCase>& cases, const Sh
     std::map<std::pair<std::string, std::int64_t>, std::size_t> known;
     const auto add = [&](std::size_t c, std::int64_t realization) {
         const Run& run = realization == deterministic_run ? deterministic[c] : random[c];
-        const bool varies = run.config.field.variable != randomfield::Variable::none;
+        const bool varies = run.config->field.variable != randomfield::Variable::none;
         const std::int64_t field = varies ? realization : 0;
         const auto [at, is_new] = known.try_emplace({run.hash, field}, plan.size());
         if (is_new) plan.push_back({run.config, field, {}});

@@ -2,6 +2,7 @@
 // What a campaign has to do: which runs there are, and which rows each of them fills.
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,7 @@ struct RowPlace {
 /// One run and the rows that it fills: runs without a random field are the same for all
 /// realizations and for all cases that differ in their fields only.
 struct Work {
-    Config config;
+    std::shared_ptr<const Config> config;
     std::int64_t realization = 0;  ///< of the field [-]
     std::vector<RowPlace> rows;
 };

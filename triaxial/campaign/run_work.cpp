@@ -38,14 +38,15 @@ Row run_work(const Work& work, const Sample& start, const std::filesystem::path&
              const std::atomic<bool>& stop) {
     const auto begin = std::chrono::steady_clock::now();
     RunMonitor monitor(stop, failed_state);
+    const Config& config = *work.config;
     Row row;
     try {
         Sample sample = start;
-        map_field(work.config, work.realization, sample);
+        map_field(config, work.realization, sample);
         core::Simulation simulation =
-            make_simulation(std::move(sample), work.config,
-                            core::choose_kernels(work.config.solver), "the start of the campaign");
-        const TestResult result = run_test(simulation, work.config, monitor);
+            make_simulation(std::move(sample), config, core::choose_kernels(config.solver),
+                            "the start of the campaign");
+        const TestResult result = run_test(simulation, config, monitor);
         row.peak_deviator_stress = result.results.peak_deviator_stress;
         row.E50 = result.results.E50;
         row.friction_angle = result.results.friction_angle;
