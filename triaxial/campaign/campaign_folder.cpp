@@ -4,7 +4,9 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "core/errors.hpp"
 #include "core/files/atomic_file.hpp"
@@ -29,6 +31,18 @@ std::string case_text(const CampaignCase& one) {
     Config config = one.config;
     config.montecarlo = {};
     return write_config(config);
+}
+
+/// "AMD EPYC ..., 2 threads", as far as the system says.
+std::string machine() {
+    std::string name = "unknown processor";
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);)
+        if (line.starts_with("model name")) {
+            name = core::trim(std::string_view(line).substr(line.find(':') + 1));
+            break;
+        }
+    return fmt::format("{}, {} threads", name, std::thread::hardware_concurrency());
 }
 
 /// What identifies a campaign, case by case.
@@ -155,7 +169,14 @@ void CampaignFolder::join(const std::optional<fs::path>& packing) const {
         compare(there, here, path_);
         for (const auto& [name, one] : there["cases"].items())
             if (!here["cases"].contains(name)) here["cases"][name] = one;
+        here["machines"] = there.value("machines", nlohmann::json::array());
+        nlohmann::json& machines = here["machines"];
+        if (std::find(machines.begin(), machines.end(), nlohmann::json(machine())) ==
+            machines.end())
+            machines.push_back(machine());
         if (here == there) return;
+    } else {
+        here["machines"] = nlohmann::json::array({machine()});
     }
     core::write_file_atomically(file, here.dump(2) + "\n");
     core::create_folder(path_ / "cases");

@@ -1,8 +1,8 @@
 #pragma once
 // The folder of a campaign: who works in it, what belongs to it, and its results.
 //
-//   campaign.json       every case with its whole config, and the kernels that compute it
-//   cases/NAME.toml     the same for `grainfield triaxial`
+//   campaign.json       every case with its whole config and kernels; the machines that worked on
+//   it cases/NAME.toml     the same for `grainfield triaxial`
 //   *.journal           finished rows, one file a shard (journal.hpp)
 //   results.csv         all of them, sorted; deterministic.csv: those of deterministic runs
 //   failures.csv        case, realization, reason and state of runs that failed; failed/: the

@@ -81,6 +81,18 @@ std::vector<double> JsonFile::numbers(std::string_view key) const {
     return values;
 }
 
+std::vector<std::string> JsonFile::texts(std::string_view key) const {
+    std::vector<std::string> texts;
+    const nlohmann::ordered_json* value = find(key);
+    if (value == nullptr) return texts;
+    if (!value->is_array()) fail(key, "an array of texts is expected");
+    for (const auto& entry : *value) {
+        if (!entry.is_string()) fail(key, "an array of texts is expected");
+        texts.push_back(entry.get<std::string>());
+    }
+    return texts;
+}
+
 std::vector<std::pair<std::string, nlohmann::ordered_json>> JsonFile::members(
     std::string_view key) const {
     const nlohmann::ordered_json* value = find(key);

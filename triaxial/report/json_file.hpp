@@ -23,6 +23,8 @@ class JsonFile {
     std::optional<std::string> optional_text(std::string_view key) const;
     std::optional<bool> optional_flag(std::string_view key) const;
     std::vector<double> numbers(std::string_view key) const;
+    /// The texts of an array; none where there is no such key.
+    std::vector<std::string> texts(std::string_view key) const;
     /// Entries of an object, in the order of the file; FileError where there is none.
     std::vector<std::pair<std::string, nlohmann::ordered_json>> members(std::string_view key) const;
     bool has(std::string_view key) const { return find(key) != nullptr; }

@@ -74,6 +74,7 @@ CampaignData read_campaign_data(const fs::path& folder) {
     data.path = folder;
     const JsonFile json(folder / "campaign.json");
     data.version = json.optional_text("version").value_or("unknown");
+    data.machines = json.texts("machines");
     std::map<std::string, std::size_t> index;
     for (const auto& [name, one] : json.members("cases")) {
         CaseData& made = data.cases.emplace_back();

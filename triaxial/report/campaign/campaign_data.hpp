@@ -25,6 +25,7 @@ struct CaseData {
 struct CampaignData {
     std::filesystem::path path;
     std::string version;
+    std::vector<std::string> machines;  ///< that worked on it
     std::vector<CaseData> cases;        ///< by name
     std::vector<std::string> failures;  ///< case, realization and reason of each, as text
     std::vector<std::string> varying;   ///< config keys that are not the same in all cases

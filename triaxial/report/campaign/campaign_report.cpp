@@ -170,7 +170,8 @@ std::string build_page(const CampaignData& data) {
                    "note");
     if (!data.cases.empty()) {
         page.listing(data.cases.front().config);
-        page.values({{"kernels", data.cases.front().kernels}});
+        page.values({{"kernels", data.cases.front().kernels},
+                     {"computed on", fmt::format("{}", fmt::join(data.machines, "; "))}});
     }
     return page.html();
 }
