@@ -184,6 +184,7 @@ TEST_F(MonteCarlo, RowsAreTheSameOnAnyThreadsAndOfTheTriaxialCommand) {
         place_.run({"triaxial", place_.path("one/cases/cov=0.8.toml"), "--packing", start.string(),
                     "--realization", "5", "--out", place_.path("single")});
     ASSERT_EQ(single.code, 0) << single.err;
+    EXPECT_THAT(place_.read("one/cases/cov=0.8.toml"), HasSubstr(start.filename().string()));
     const std::string hash = place_.json("single/summary.json")["state_hash"];
     EXPECT_THAT(table("one"), testing::ContainsRegex("cov=0.8,5,1,done,.*" + hash));
 }

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <future>
 #include <mutex>
 #include <thread>
 
@@ -157,6 +158,13 @@ class Crew {
     std::condition_variable changed_;
 };
 
+/// Threads that a run gets if nobody says otherwise. Measured on two cores: two runs of 5,616
+/// spheres side by side take 0.6 of the time of one after the other on two threads each, of 18,954
+/// spheres 0.74, of 151,632 spheres, two of which do not fit the caches, 1.1.
+int threads_a_run(std::size_t spheres) {
+    return spheres < 100000 ? 1 : 2;
+}
+
 /// What is left of a plan. Rows whose run another row has already made are taken from it.
 std::vector<Work> left_of(std::vector<Work> plan, const std::map<RowPlace, Row>& finished,
                           const std::vector<CampaignCase>& cases, CampaignFolder& folder) {
@@ -182,11 +190,16 @@ CampaignResult run_campaign(CampaignFolder& folder, const std::vector<CampaignCa
     std::vector<Work> todo =
         left_of(plan_campaign(cases, options.shard), folder.finished(), cases, folder);
     Starts starts(folder.path(), options.packing);
-    for (const Work& work : todo) starts.prepare(*work.config, monitor);
+    // In a thread that ends: OpenMP counts its team as long as it lives, and teams that together
+    // have more threads than there are cores go to sleep at every barrier.
+    std::async(std::launch::async, [&] {
+        omp_set_num_threads(options.threads);
+        for (const Work& work : todo) starts.prepare(*work.config, monitor);
+    }).get();
 
-    // One run a thread: no thread ever waits for another. Fewer runs than threads share them.
     const int runs = static_cast<int>(std::min<std::size_t>(todo.size(), 1024));
-    const int abreast = std::max(1, std::min(options.abreast.value_or(options.threads), runs));
+    const int usual = std::max(1, options.threads / threads_a_run(starts.largest()));
+    const int abreast = std::max(1, std::min(options.abreast.value_or(usual), runs));
     const int threads = std::max(1, options.threads / abreast);
     Progress progress(folder.finished(), todo);
     Crew crew(folder, cases, starts, std::move(todo));

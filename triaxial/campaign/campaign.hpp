@@ -16,7 +16,7 @@ struct CampaignOptions {
     std::optional<std::filesystem::path> packing;  ///< all runs start from it
     Shard shard;
     int threads = 1;                      ///< in all [-]
-    std::optional<std::int32_t> abreast;  ///< runs side by side; unset: one a thread [-]
+    std::optional<std::int32_t> abreast;  ///< runs side by side; unset: as is fastest [-]
 };
 
 struct CampaignResult {

@@ -181,8 +181,12 @@ void CampaignFolder::join(const std::optional<fs::path>& packing) const {
     core::write_file_atomically(file, here.dump(2) + "\n");
     core::create_folder(path_ / "cases");
     for (const CampaignCase& one : cases_)
-        core::write_file_atomically(path_ / "cases" / (file_name(one.name) + ".toml"),
-                                    case_text(one));
+        core::write_file_atomically(
+            path_ / "cases" / (file_name(one.name) + ".toml"),
+            fmt::format("# Row K of this case: grainfield triaxial with this file, --packing "
+                        "starts/{}.h5 --realization K\n",
+                        config_hash(start_part(one.config))) +
+                case_text(one));
 }
 
 std::map<RowPlace, Row> CampaignFolder::finished() const {

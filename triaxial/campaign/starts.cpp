@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -58,11 +59,6 @@ fs::path Starts::packing_file(const Config& config, core::Monitor& monitor) {
     return file;
 }
 
-std::optional<fs::path> Starts::file_of(const Config& config) const {
-    const fs::path file = folder_ / "starts" / (config_hash(start_part(config)) + ".h5");
-    return fs::exists(file) ? std::optional(file) : std::nullopt;
-}
-
 Starts::Start Starts::make(const Config& config, const fs::path& file, core::Monitor& monitor) {
     const FileLock lock = lock_of(file, monitor);
     if (!fs::exists(file)) {
@@ -91,6 +87,12 @@ void Starts::prepare(const Config& config, core::Monitor& monitor) {
     } catch (const SimulationError& error) {
         starts_[hash] = {{}, error.what()};
     }
+}
+
+std::size_t Starts::largest() const {
+    std::size_t most = 0;
+    for (const auto& [hash, start] : starts_) most = std::max(most, start.sample.spheres.size());
+    return most;
 }
 
 const Sample& Starts::of(const Config& config) const {

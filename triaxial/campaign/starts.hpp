@@ -26,8 +26,8 @@ class Starts {
 
     /// The start of a prepared config. Throws SimulationError with the reason if it cannot be made.
     const Sample& of(const Config& config) const;
-    /// Its file; none where the runs start from the file of a packing as it is.
-    std::optional<std::filesystem::path> file_of(const Config& config) const;
+    /// Spheres of the largest start [-].
+    std::size_t largest() const;
 
   private:
     struct Start {

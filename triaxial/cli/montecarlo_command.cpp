@@ -116,7 +116,8 @@ void add_montecarlo_command(CLI::App& app, CommandLine& line) {
                        "made");
     command
         .add_option("--abreast", arguments->abreast,
-                    "Runs at a time, which share the threads (default: one a thread)")
+                    "Runs at a time, which share the threads (default: one a thread, of samples of "
+                    "100,000 spheres and more one for two threads)")
         ->check(CLI::Range(1, 1024));
     command
         .add_option("--merge", arguments->merge,
