@@ -146,6 +146,15 @@ TEST_F(CampaignReport, TrendsGroupTheCasesThatAgreeInAllElse) {
     EXPECT_EQ(report::trends_over(data, "field.stiffness.cov").size(), 3u);
 }
 
+TEST_F(CampaignReport, DrawsCasesThatDifferInATextKey) {
+    const auto dir = campaign(3, std::string(config) +
+                                     "[[montecarlo.case]]\nname = 'A'\nset.field.variable = "
+                                     "'friction'\n[[montecarlo.case]]\nname = 'B'\n");
+    const std::string page = read_file(write_campaign_report(dir));
+    EXPECT_THAT(page, HasSubstr("variable = friction"));
+    EXPECT_THAT(page, HasSubstr("variable = stiffness"));
+}
+
 TEST_F(CampaignReport, DamagedTablesAreNamed) {
     const auto dir = campaign(3);
     std::string text = read_file(dir / "results.csv");

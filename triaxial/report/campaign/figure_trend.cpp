@@ -30,6 +30,14 @@ std::string short_name(const std::string& key) {
     return key.substr(key.rfind('.') + 1);
 }
 
+/// Text between gnuplot's single quotes; TOML's own quotes are left out.
+std::string quoted(std::string text) {
+    std::erase(text, '"');
+    for (std::size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 2)
+        text.insert(at, 1, '\'');
+    return "'" + text + "'";
+}
+
 constexpr std::array line_colours{colour::main,  colour::contrast, std::string_view("#3c7a4e"),
                                   colour::muted, colour::soft,     std::string_view("#8a5a9e")};
 
@@ -100,8 +108,8 @@ Figure trend_figure(const Gnuplot& gnuplot, const std::string& id, const Quantit
         const auto line = line_colours[t % line_colours.size()];
         const std::string title = trends[t].name.empty() ? "mean" : trends[t].name;
         means += fmt::format(
-            "{}'{}' using 1:2:3:4 with yerrorlines pt 7 ps 0.6 lw 1.6 lc rgb '{}' title \"{}\"",
-            t == 0 ? "" : ", \\\n     ", file, line, title);
+            "{}'{}' using 1:2:3:4 with yerrorlines pt 7 ps 0.6 lw 1.6 lc rgb '{}' title {}",
+            t == 0 ? "" : ", \\\n     ", file, line, quoted(title));
         if (deterministic)
             means += fmt::format(
                 ", \\\n     '{}' using 1:8 with lines dt 2 lw 1.2 lc rgb '{}' title '{}'", file,
