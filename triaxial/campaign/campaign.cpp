@@ -44,9 +44,9 @@ std::vector<Row> rows_of(const Work& work, const Row& result,
 class Crew {
   public:
     Crew(CampaignFolder& folder, const std::vector<CampaignCase>& cases, const Starts& starts,
-         std::vector<Work> todo)
+         std::vector<Work> todo, const std::map<RowPlace, Row>& finished)
         : folder_(folder), cases_(cases), starts_(starts), todo_(std::move(todo)), needs_(cases) {
-        learn();
+        learn(finished);
     }
 
     /// Works until all is done, something broke, or the monitor asks to stop.
@@ -77,9 +77,9 @@ class Crew {
             progress.show(monitor);
             if (Clock::now() - written < results_interval) continue;
             lock.unlock();
-            folder_.write_results();
+            const std::map<RowPlace, Row> finished = folder_.write_results();
             lock.lock();
-            learn();
+            learn(finished);
             written = Clock::now();
         }
     }
@@ -92,7 +92,7 @@ class Crew {
                 const Row first = rows_of(*work, {}, cases_).front();
                 const auto state = folder_.path() / CampaignFolder::state_name(first);
                 Row result;
-                arena.execute([&] { result = computed(*work, state); });
+                arena.execute([&] { result = run_work(*work, starts_, state, stop_); });
                 finish(*work, result, progress);
             }
         } catch (const Interrupted&) {  // stop_ is set already
@@ -104,17 +104,6 @@ class Crew {
         const std::lock_guard lock(mutex_);
         --working_;
         changed_.notify_all();
-    }
-
-    Row computed(const Work& work, const std::filesystem::path& state) {
-        try {
-            return run_work(work, starts_.of(*work.config), state, stop_);
-        } catch (const SimulationError& error) {  // there is no start
-            Row row;
-            row.failed = true;
-            row.reason = error.what();
-            return row;
-        }
     }
 
     const Work* next(Progress& progress) {
@@ -141,8 +130,8 @@ class Crew {
     }
 
     /// What other shards have found out counts, too.
-    void learn() {
-        for (const auto& [place, row] : folder_.finished()) needs_.add(place, row);
+    void learn(const std::map<RowPlace, Row>& finished) {
+        for (const auto& [place, row] : finished) needs_.add(place, row);
     }
 
     CampaignFolder& folder_;
@@ -201,12 +190,12 @@ CampaignResult run_campaign(CampaignFolder& folder, const std::vector<CampaignCa
     const int usual = std::max(1, options.threads / threads_a_run(starts.largest()));
     const int abreast = std::max(1, std::min(options.abreast.value_or(usual), runs));
     const int threads = std::max(1, options.threads / abreast);
-    Progress progress(folder.finished(), todo);
-    Crew crew(folder, cases, starts, std::move(todo));
+    const std::map<RowPlace, Row> finished = folder.finished();
+    Progress progress(finished, todo);
+    Crew crew(folder, cases, starts, std::move(todo), finished);
     monitor.begin("campaign");
     crew.run(abreast, threads, progress, monitor);
-    folder.write_results();
-    const CampaignResult result{folder.finished(), crew.computed()};
+    const CampaignResult result{folder.write_results(), crew.computed()};
     if (crew.stopped())
         throw Interrupted(fmt::format("stopped by the user; {}; the same command goes on from here",
                                       progress.counts()));

@@ -232,11 +232,12 @@ fs::path CampaignFolder::state_name(const Row& row) {
     return fs::path("failed") / fmt::format("{}-{}.h5", file_name(row.case_name), row.realization);
 }
 
-void CampaignFolder::write_results() const {
+std::map<RowPlace, Row> CampaignFolder::write_results() const {
     const FileLock lock = writing();
+    std::map<RowPlace, Row> all = finished();
     std::vector<Row> rows, deterministic;
     std::string failures = "case,realization,reason,state\n";
-    for (const auto& [place, row] : finished())
+    for (const auto& [place, row] : all)
         (place.realization == deterministic_run ? deterministic : rows).push_back(row);
     for (auto* part : {&deterministic, &rows}) {
         std::sort(part->begin(), part->end(), row_before);
@@ -253,6 +254,7 @@ void CampaignFolder::write_results() const {
     core::write_file_atomically(path_ / "results.csv", rows_csv(rows));
     core::write_file_atomically(path_ / "deterministic.csv", rows_csv(deterministic));
     core::write_file_atomically(path_ / "failures.csv", failures);
+    return all;
 }
 
 }  // namespace grainfield::triaxial

@@ -39,8 +39,9 @@ class CampaignFolder {
     /// Takes the rows of another folder of the same campaign over. Returns how many were new.
     /// InputError: it belongs to another campaign.
     std::size_t take_over(const std::filesystem::path& other);
-    /// Writes results.csv, deterministic.csv and failures.csv from all journals.
-    void write_results() const;
+    /// Writes results.csv, deterministic.csv and failures.csv from all journals. Returns
+    /// finished().
+    std::map<RowPlace, Row> write_results() const;
     /// Where the state of a failed run goes, within the folder.
     static std::filesystem::path state_name(const Row& row);
 

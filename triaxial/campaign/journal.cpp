@@ -68,6 +68,7 @@ Journal::~Journal() {
 }
 
 void Journal::append(std::span<const Row> rows) {
+    if (rows.empty()) return;
     std::string text;
     for (const Row& row : rows) {
         const std::string line = row_line(row);

@@ -8,6 +8,14 @@
 
 namespace grainfield::triaxial {
 
+std::string mean_text(std::span<const double> values) {
+    const auto interval = statistics::interval_of_mean(values);
+    return fmt::format("{:.2f}{}", *statistics::mean(values),
+                       interval
+                           ? fmt::format(" ± {:.2f}", 0.5 * (interval->upper - interval->lower))
+                           : std::string());
+}
+
 Progress::Progress(const std::map<RowPlace, Row>& finished, const std::vector<Work>& todo)
     : total_(finished.size()), runs_(todo.size()), begin_(std::chrono::steady_clock::now()) {
     for (const Work& work : todo) total_ += work.rows.size();
@@ -18,7 +26,7 @@ void Progress::count(const Row& row) {
     ++done_;
     failed_ += row.failed ? 1u : 0u;
     if (row.failed || row.realization == deterministic_run) return;
-    E50_[row.case_name].push_back(row.E50);
+    E50_[row.case_name].push_back(row.E50 / 1e6);
     last_case_ = row.case_name;
 }
 
@@ -53,11 +61,8 @@ void Progress::show(core::Monitor& monitor) const {
     if (runs_done_ > 0)
         line += fmt::format(", {:.0f} runs/h",
                             3600 * static_cast<double>(runs_done_) / elapsed.count());
-    if (const auto at = E50_.find(last_case_); at != E50_.end())
-        if (const auto interval = statistics::interval_of_mean(at->second))
-            line += fmt::format(", {}: E50 {:.2f} ± {:.2f} MPa", last_case_,
-                                *statistics::mean(at->second) / 1e6,
-                                0.5 * (interval->upper - interval->lower) / 1e6);
+    if (const auto at = E50_.find(last_case_); at != E50_.end() && at->second.size() > 1)
+        line += fmt::format(", {}: E50 {} MPa", last_case_, mean_text(at->second));
     const double share =
         static_cast<double>(runs_done_) / static_cast<double>(std::max<std::size_t>(1, runs_));
     monitor.progress(runs_done_ > 0 ? share : -1, -1, line);

@@ -14,6 +14,9 @@
 
 namespace grainfield::triaxial {
 
+/// "24.12 ± 0.31": the mean and half its 95 % interval, which one value has not.
+std::string mean_text(std::span<const double> values);
+
 /// Safe to use from many threads.
 class Progress {
   public:
@@ -34,7 +37,7 @@ class Progress {
     std::size_t total_ = 0, done_ = 0, failed_ = 0, running_ = 0;
     std::size_t runs_ = 0, runs_done_ = 0;  // of this call
     std::chrono::steady_clock::time_point begin_;
-    std::map<std::string, std::vector<double>> E50_;  // of each case [Pa]
+    std::map<std::string, std::vector<double>> E50_;  // of each case [MPa]
     std::string last_case_;
 };
 

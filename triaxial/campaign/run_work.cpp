@@ -34,14 +34,14 @@ class RunMonitor : public core::Monitor {
 
 }  // namespace
 
-Row run_work(const Work& work, const Sample& start, const std::filesystem::path& failed_state,
+Row run_work(const Work& work, const Starts& starts, const std::filesystem::path& failed_state,
              const std::atomic<bool>& stop) {
     const auto begin = std::chrono::steady_clock::now();
     RunMonitor monitor(stop, failed_state);
     const Config& config = *work.config;
     Row row;
     try {
-        Sample sample = start;
+        Sample sample = starts.of(config);
         map_field(config, work.realization, sample);
         core::Simulation simulation =
             make_simulation(std::move(sample), config, core::choose_kernels(config.solver),

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "core/errors.hpp"
 #include "core/files/folder.hpp"
 #include "core/kernel_choice.hpp"
 #include "packing/isotropic.hpp"
-#include "packing/pack.hpp"
 #include "triaxial/campaign/file_lock.hpp"
 #include "triaxial/campaign/plan.hpp"
 #include "triaxial/test/packing_files.hpp"
@@ -31,15 +29,6 @@ FileLock lock_of(const fs::path& file, core::Monitor& monitor) {
     });
 }
 
-void make_packing(const Config& config, const fs::path& file, core::Monitor& monitor) {
-    const auto start = std::chrono::steady_clock::now();
-    const packing::Packing packed =
-        packing::pack(config.packing, config.grading, packing_material(config), config.time,
-                      monitor, config.solver);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    write_packing(file, packed, seconds.count());
-}
-
 }  // namespace
 
 Starts::Starts(fs::path folder, std::optional<fs::path> packing)
@@ -55,7 +44,7 @@ fs::path Starts::packing_file(const Config& config, core::Monitor& monitor) {
     const fs::path file = folder_ / "packings" / (config_hash(part) + ".h5");
     const FileLock lock = lock_of(file, monitor);
     // The .json comes last.
-    if (!fs::exists(json_beside(file))) make_packing(part, file, monitor);
+    if (!fs::exists(json_beside(file))) pack_into(file, part, monitor);
     return file;
 }
 

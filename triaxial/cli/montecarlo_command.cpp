@@ -9,9 +9,9 @@
 #include "core/errors.hpp"
 #include "core/files/text_file.hpp"
 #include "triaxial/campaign/campaign.hpp"
+#include "triaxial/campaign/progress.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/print_row.hpp"
-#include "triaxial/statistics/moments.hpp"
 
 namespace grainfield::triaxial {
 namespace {
@@ -36,15 +36,6 @@ Shard parse_shard(const std::string& text) {
         throw InputError(fmt::format(
             "--shard = {}: I/N is expected, two whole numbers with 1 <= I <= N <= 1000000", text));
     return {static_cast<std::int32_t>(shard), static_cast<std::int32_t>(shards)};
-}
-
-/// "24.12 ± 0.31", half the 95 % interval.
-std::string mean_text(const std::vector<double>& values) {
-    const auto interval = statistics::interval_of_mean(values);
-    return fmt::format("{:.2f}{}", *statistics::mean(values),
-                       interval
-                           ? fmt::format(" ± {:.2f}", 0.5 * (interval->upper - interval->lower))
-                           : std::string());
 }
 
 /// A line a case: how many rows, and the means.
@@ -85,9 +76,8 @@ void run_montecarlo(const Arguments& arguments, Session& session) {
     if (!arguments.merge.empty()) {
         std::size_t taken = 0;
         for (const std::string& other : arguments.merge) taken += folder.take_over(other);
-        folder.write_results();
         print_row("rows taken over", fmt::format("{}", taken));
-        print_cases(cases, folder.finished());
+        print_cases(cases, folder.write_results());
     } else {
         const CampaignResult result = run_campaign(folder, cases, options, session.monitor);
         print_row("rows computed", fmt::format("{}", result.computed));

@@ -53,10 +53,7 @@ void run_pack(const Arguments& arguments, Session& session) {
     const auto start = std::chrono::steady_clock::now();
     StateKeeper keeper(session.monitor,
                        std::filesystem::path(arguments.out).replace_extension(".failed.h5"));
-    const packing::Packing packed = keeper.run([&] {
-        return packing::pack(config.packing, config.grading, packing_material(config), config.time,
-                             keeper, config.solver);
-    });
+    const packing::Packing packed = keeper.run([&] { return pack(config, keeper); });
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     write_packing(arguments.out, packed, seconds.count());
     print_results(packed);

@@ -48,12 +48,8 @@ Sample sample_from_file(const Arguments& arguments, const Config& config, const 
 }
 
 Sample sample_from_nothing(const Config& config, const fs::path& out, core::Monitor& monitor) {
-    const auto start = std::chrono::steady_clock::now();
-    const packing::Packing packed =
-        packing::pack(config.packing, config.grading, packing_material(config), config.time,
-                      monitor, config.solver);
-    write_packing(out / "packing.h5", packed, seconds_since(start));
-    return {packed.spheres, packed.box};
+    packing::Packing packed = pack_into(out / "packing.h5", config, monitor);
+    return {std::move(packed.spheres), packed.box};
 }
 
 void print_results(const TestResult& r, const Config& config, const FieldRecord& field) {

@@ -1,5 +1,7 @@
 #include "triaxial/test/packing_files.hpp"
 
+#include <chrono>
+
 #include "core/files/atomic_file.hpp"
 #include "core/files/sphere_file.hpp"
 
@@ -41,6 +43,11 @@ packing::Material packing_material(const Config& config) {
             .damping = config.damping,
             .wall_friction_angle = config.wall.friction_angle,
             .wall_stiffness_ratio = config.wall.poisson_ratio};
+}
+
+packing::Packing pack(const Config& config, core::Monitor& monitor) {
+    return packing::pack(config.packing, config.grading, packing_material(config), config.time,
+                         monitor, config.solver);
 }
 
 nlohmann::json packing_json(const packing::Packing& p, double wall_seconds) {
@@ -97,6 +104,15 @@ void write_packing(const std::filesystem::path& path, const packing::Packing& p,
         {"block_m", {p.options.block.x(), p.options.block.y(), p.options.block.z()}}};
     core::write_spheres(path, file);
     core::write_file_atomically(json_beside(path), packing_json(p, wall_seconds).dump(2) + "\n");
+}
+
+packing::Packing pack_into(const std::filesystem::path& path, const Config& config,
+                           core::Monitor& monitor) {
+    const auto start = std::chrono::steady_clock::now();
+    packing::Packing packed = pack(config, monitor);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    write_packing(path, packed, seconds.count());
+    return packed;
 }
 
 }  // namespace grainfield::triaxial

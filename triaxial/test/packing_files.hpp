@@ -12,6 +12,9 @@ namespace grainfield::triaxial {
 /// What the packing takes from the whole config.
 packing::Material packing_material(const Config& config);
 
+/// packing::pack() of a whole config.
+packing::Packing pack(const Config& config, core::Monitor& monitor);
+
 /// The contents of P.json (interface.md), with the grading and the stress profile for the report.
 nlohmann::json packing_json(const packing::Packing& packing, double wall_seconds);
 
@@ -22,5 +25,9 @@ std::filesystem::path json_beside(const std::filesystem::path& packing_file);
 /// Throws FileError; InputError for an unknown suffix.
 void write_packing(const std::filesystem::path& path, const packing::Packing& packing,
                    double wall_seconds);
+
+/// Packs and writes the packing with the time it took. Throws what the two throw.
+packing::Packing pack_into(const std::filesystem::path& path, const Config& config,
+                           core::Monitor& monitor);
 
 }  // namespace grainfield::triaxial
