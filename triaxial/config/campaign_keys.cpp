@@ -47,17 +47,6 @@ class Trial {
     Keys keys_;
 };
 
-/// `"field.variable" = …` and `field.variable = …` mean the same: dotted paths of all leaves.
-void add_leaves(const TomlValue& table, const std::string& path, TomlValue::Table& leaves) {
-    for (const auto& [key, value] : std::get<TomlValue::Table>(table.data)) {
-        const std::string full = path.empty() ? key : path + "." + key;
-        if (value.is_table())
-            add_leaves(value, full, leaves);
-        else
-            leaves.push_back({full, value});
-    }
-}
-
 /// Names stand in a column of results.csv and in the names of files.
 bool is_name(const std::string& name) {
     return std::ranges::all_of(name, [](unsigned char c) {
@@ -85,11 +74,9 @@ std::vector<SweptKey> read_sweep(const TomlReader& reader, const TomlValue& swee
     if (!sweep.is_table())
         throw reader.wrong_value("montecarlo.sweep", sweep, "a table of keys and arrays of values");
     const Trial trial;
-    TomlValue::Table leaves;
-    add_leaves(sweep, "", leaves);
     std::vector<SweptKey> keys;
     std::multiset<std::string> short_names;
-    for (const auto& [path, values] : leaves) {
+    for (const auto& [path, values] : leaves(sweep)) {
         const auto* array = std::get_if<TomlValue::Array>(&values.data);
         if (array == nullptr || array->empty())
             throw reader.wrong_value("montecarlo.sweep." + toml_string(path), values,
@@ -115,7 +102,7 @@ CaseKeys read_case(const TomlReader& document, const TomlValue& one, std::set<st
     if (const TomlValue* set = reader.take("set")) {
         if (!set->is_table()) throw reader.wrong_value("set", *set, "a table of keys and values");
         const Trial trial;
-        add_leaves(*set, "", result.values);
+        result.values = leaves(*set);
         for (const auto& [path, value] : result.values)
             trial.check(document, "montecarlo.case.set", path, value);
     }

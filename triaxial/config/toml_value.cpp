@@ -61,6 +61,16 @@ bool is_bare_word(std::string_view text) {
            });
 }
 
+void add_leaves(const TomlValue& table, const std::string& path, TomlValue::Table& found) {
+    for (const auto& [key, value] : std::get<TomlValue::Table>(table.data)) {
+        const std::string full = path.empty() ? key : path + "." + key;
+        if (value.is_table())
+            add_leaves(value, full, found);
+        else
+            found.push_back({full, value});
+    }
+}
+
 }  // namespace
 
 const TomlValue* TomlValue::find(std::string_view key) const {
@@ -73,6 +83,12 @@ const TomlValue* TomlValue::find(std::string_view key) const {
 
 TomlValue* TomlValue::find(std::string_view key) {
     return const_cast<TomlValue*>(std::as_const(*this).find(key));
+}
+
+TomlValue::Table leaves(const TomlValue& table) {
+    TomlValue::Table found;
+    add_leaves(table, "", found);
+    return found;
 }
 
 TomlValue parse_toml(std::string_view text, const std::string& source) {

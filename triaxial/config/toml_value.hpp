@@ -34,6 +34,10 @@ struct TomlEntry {
     TomlValue value;
 };
 
+/// The values in a table and the tables in it, by dotted path: `"a.b" = 1` and `a.b = 1` are the
+/// same.
+TomlValue::Table leaves(const TomlValue& table);
+
 /// Parses TOML text. source: its name in messages. Throws InputError with source, line and column.
 TomlValue parse_toml(std::string_view text, const std::string& source);
 

@@ -90,6 +90,23 @@ void require_values_of(Family family, std::span<const double> values) {
         require_finite(values);
 }
 
+/// A test by distance. `normal_p` is the published p for normal values, where there is one.
+std::optional<DistanceTest> distance_test(Distance distance, Family family,
+                                          std::span<const double> values,
+                                          const Resampling& resampling,
+                                          double (*normal_p)(double, std::size_t)) {
+    resampling.validate();
+    require_values_of(family, values);
+    if (values.size() < fewest_values) return {};
+    const Prepared sample = prepare(family, values);
+    const Fit tested = tested_fit(sample.family, sample.ascending);
+    DistanceTest test{.statistic = distance(tested, sample.ascending)};
+    test.p_value = normal_p != nullptr && sample.family == Family::normal
+                       ? normal_p(test.statistic, values.size())
+                       : bootstrap_p(distance, test.statistic, tested, resampling);
+    return test;
+}
+
 }  // namespace
 
 std::size_t chi_square_bins(std::size_t n) {
@@ -127,28 +144,12 @@ std::optional<ChiSquareTest> chi_square_test(std::span<const double> values, con
 
 std::optional<DistanceTest> kolmogorov_smirnov_test(Family family, std::span<const double> values,
                                                     const Resampling& resampling) {
-    resampling.validate();
-    require_values_of(family, values);
-    if (values.size() < fewest_values) return {};
-    const Prepared sample = prepare(family, values);
-    const Fit tested = tested_fit(sample.family, sample.ascending);
-    DistanceTest test{.statistic = kolmogorov_smirnov(tested, sample.ascending)};
-    test.p_value = bootstrap_p(kolmogorov_smirnov, test.statistic, tested, resampling);
-    return test;
+    return distance_test(kolmogorov_smirnov, family, values, resampling, nullptr);
 }
 
 std::optional<DistanceTest> anderson_darling_test(Family family, std::span<const double> values,
                                                   const Resampling& resampling) {
-    resampling.validate();
-    require_values_of(family, values);
-    if (values.size() < fewest_values) return {};
-    const Prepared sample = prepare(family, values);
-    const Fit tested = tested_fit(sample.family, sample.ascending);
-    DistanceTest test{.statistic = anderson_darling(tested, sample.ascending)};
-    test.p_value = sample.family == Family::normal
-                       ? anderson_darling_p(test.statistic, values.size())
-                       : bootstrap_p(anderson_darling, test.statistic, tested, resampling);
-    return test;
+    return distance_test(anderson_darling, family, values, resampling, anderson_darling_p);
 }
 
 double anderson_darling_p(double statistic, std::size_t n) {

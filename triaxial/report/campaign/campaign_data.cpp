@@ -52,17 +52,6 @@ std::vector<triaxial::Row> read_rows(const fs::path& path) {
     return rows;
 }
 
-void add_leaves(const TomlValue& value, const std::string& path,
-                std::map<std::string, std::string>& leaves) {
-    const auto* table = std::get_if<TomlValue::Table>(&value.data);
-    if (table == nullptr) {
-        leaves[path] = toml_text(value);
-        return;
-    }
-    for (const TomlEntry& entry : *table)
-        add_leaves(entry.value, path.empty() ? entry.key : path + "." + entry.key, leaves);
-}
-
 }  // namespace
 
 bool is_campaign(const fs::path& folder) {
@@ -82,7 +71,9 @@ CampaignData read_campaign_data(const fs::path& folder) {
         made.name = name;
         made.kernels = one.value("kernels", "");
         made.config = one.value("config", "");
-        add_leaves(parse_toml(made.config, (folder / "campaign.json").string()), "", made.values);
+        for (const TomlEntry& leaf :
+             leaves(parse_toml(made.config, (folder / "campaign.json").string())))
+            made.values[leaf.key] = toml_text(leaf.value);
     }
     const auto place = [&](const triaxial::Row& row) -> CaseData& {
         const auto at = index.find(row.case_name);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "triaxial/report/campaign/campaign_data.hpp"
+#include "triaxial/report/campaign/case_statistics.hpp"
 #include "triaxial/report/figures.hpp"
 #include "triaxial/statistics/distributions.hpp"
 
@@ -28,17 +28,18 @@ Figure probability_figure(const Gnuplot& gnuplot, const std::string& id, const Q
 /// One line of a trend: a point a case.
 struct Trend {
     struct Point {
-        double x;  ///< of the key that varies, in the figure's unit
-        const CaseData* one;
+        double x;                ///< of the key that varies, in the figure's unit
+        std::size_t case_index;  ///< two rows or more
     };
     std::string name;  ///< what the other keys are; may be empty
     std::vector<Point> points;
 };
 
 /// Mean and deviation against a key that varies, with 95 % intervals and the deterministic values
-/// (Figs. 9, 10, 13 and 14).
-Figure trend_figure(const Gnuplot& gnuplot, const std::string& id, const Quantity& quantity,
-                    const std::string& label, std::span<const Trend> trends);
+/// (Figs. 9, 10, 13 and 14); `q` is the quantity's number.
+Figure trend_figure(const Gnuplot& gnuplot, const std::string& id, std::size_t q,
+                    const std::string& label, std::span<const Trend> trends,
+                    const CampaignStatistics& all);
 
 /// The trends over a config key: cases that agree in all other keys make a line. Only keys with a
 /// number (of a correlation length: that in y) have any.

@@ -29,9 +29,8 @@ std::string p_text(const std::optional<Test>& test) {
     return test ? significant(test->p_value, 2) : missing;
 }
 
-using Statistics = std::vector<std::array<CaseStatistics, std::size(quantities)>>;
-
-void add_moments(Page& page, const CampaignData& data, const Statistics& all, std::size_t q) {
+void add_moments(Page& page, const CampaignData& data, const CampaignStatistics& all,
+                 std::size_t q) {
     const Quantity& quantity = quantities[q];
     const std::vector<std::string> header{"case", "runs",      "failed", "deterministic", "mean",
                                           "95 %", "deviation", "95 %",   "COV",           "95 %"};
@@ -47,7 +46,7 @@ void add_moments(Page& page, const CampaignData& data, const Statistics& all, st
     page.columns(fmt::format("{}, {}", quantity.name, quantity.unit), header, rows);
 }
 
-void add_fits(Page& page, const CampaignData& data, const Statistics& all, std::size_t q) {
+void add_fits(Page& page, const CampaignData& data, const CampaignStatistics& all, std::size_t q) {
     const std::vector<std::string> header{"case",    "best by AIC", "lognormal", "normal", "gamma",
                                           "Weibull", "χ² p",        "KS p",      "AD p"};
     std::vector<std::vector<std::string>> rows;
@@ -74,14 +73,15 @@ void add_fits(Page& page, const CampaignData& data, const Statistics& all, std::
                  header, rows);
 }
 
-void add_trends(Page& page, const Gnuplot& gnuplot, const CampaignData& data) {
+void add_trends(Page& page, const Gnuplot& gnuplot, const CampaignData& data,
+                const CampaignStatistics& all) {
     std::vector<Figure> figures;
     for (std::size_t k = 0; k < data.varying.size(); ++k) {
         const std::vector<Trend> trends = trends_over(data, data.varying[k]);
         if (trends.empty()) continue;
-        for (const Quantity& quantity : quantities)
-            figures.push_back(trend_figure(gnuplot, fmt::format("trend{}{}", k, quantity.id),
-                                           quantity, axis_name(data.varying[k]).text, trends));
+        for (std::size_t q = 0; q < std::size(quantities); ++q)
+            figures.push_back(trend_figure(gnuplot, fmt::format("trend{}{}", k, quantities[q].id),
+                                           q, axis_name(data.varying[k]).text, trends, all));
     }
     if (figures.empty()) return;
     page.section("Over the cases");
@@ -125,14 +125,8 @@ std::string lead(const CampaignData& data) {
                        data.cases.size() == 1 ? "" : "s", failed, duration(data.wall_seconds));
 }
 
-std::string build_page(const CampaignData& data) {
+std::string build_page(const CampaignData& data, const CampaignStatistics& all) {
     const Gnuplot gnuplot;
-    Statistics all;
-    for (const CaseData& one : data.cases) {
-        auto& statistics = all.emplace_back();
-        for (std::size_t q = 0; q < std::size(quantities); ++q)
-            statistics[q] = case_statistics(one, quantities[q]);
-    }
     const std::string folder =
         escape(std::filesystem::weakly_canonical(data.path).filename().string());
     Page page(fmt::format("Grainfield report · campaign “{}”", folder), "Monte Carlo campaign",
@@ -151,7 +145,7 @@ std::string build_page(const CampaignData& data) {
         "estimated parameters, p by parametric bootstrap; AD: Anderson–Darling with estimated "
         "parameters (Stephens). A small p speaks against the lognormal distribution.",
         "note");
-    add_trends(page, gnuplot, data);
+    add_trends(page, gnuplot, data, all);
     for (std::size_t c = 0; c < data.cases.size(); ++c)
         add_case(page, gnuplot, data.cases[c], c, all[c]);
     if (!data.failures.empty()) {
@@ -180,9 +174,10 @@ std::string build_page(const CampaignData& data) {
 
 std::filesystem::path write_campaign_report(const std::filesystem::path& dir) {
     const CampaignData data = read_campaign_data(dir);
-    core::write_file_atomically(dir / "statistics.csv", statistics_csv(data));
+    const CampaignStatistics all = campaign_statistics(data);
+    core::write_file_atomically(dir / "statistics.csv", statistics_csv(data, all));
     const std::filesystem::path path = dir / "report.html";
-    core::write_file_atomically(path, build_page(data));
+    core::write_file_atomically(path, build_page(data, all));
     return path;
 }
 

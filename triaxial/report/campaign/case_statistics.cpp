@@ -39,7 +39,17 @@ const statistics::Fit* fit_of(const CaseStatistics& s, statistics::Family family
     return at == s.fits.end() ? nullptr : &*at;
 }
 
-std::string statistics_csv(const CampaignData& data) {
+CampaignStatistics campaign_statistics(const CampaignData& data) {
+    CampaignStatistics all;
+    for (const CaseData& one : data.cases) {
+        auto& of_case = all.emplace_back();
+        for (std::size_t q = 0; q < std::size(quantities); ++q)
+            of_case[q] = case_statistics(one, quantities[q]);
+    }
+    return all;
+}
+
+std::string statistics_csv(const CampaignData& data, const CampaignStatistics& all) {
     std::string text =
         "case,quantity,unit,realizations,failed,deterministic,mean,mean_low,mean_high,deviation,"
         "deviation_low,deviation_high,cov,cov_low,cov_high,skewness,best_fit,chi2_p,ks_p,ad_p\n";
@@ -52,9 +62,11 @@ std::string statistics_csv(const CampaignData& data) {
     const auto p = [](const auto& test) {
         return test ? fmt::format("{}", test->p_value) : std::string();
     };
-    for (const CaseData& one : data.cases)
-        for (const Quantity& quantity : quantities) {
-            const CaseStatistics s = case_statistics(one, quantity);
+    for (std::size_t c = 0; c < all.size(); ++c)
+        for (std::size_t q = 0; q < std::size(quantities); ++q) {
+            const CaseData& one = data.cases[c];
+            const Quantity& quantity = quantities[q];
+            const CaseStatistics& s = all[c][q];
             text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", one.name,
                                 quantity.id, quantity.unit, s.count, one.failed,
                                 number(s.deterministic), number(s.mean), ends(s.mean_interval),

@@ -1,6 +1,7 @@
 #pragma once
 // What is said of one quantity of one case, for the tables and the CSV.
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,7 +30,11 @@ CaseStatistics case_statistics(const CaseData& one, const Quantity& quantity);
 /// The fit of a family among them; null if there is none.
 const statistics::Fit* fit_of(const CaseStatistics& statistics, statistics::Family family);
 
+/// Of every case of a campaign and every quantity, in their order.
+using CampaignStatistics = std::vector<std::array<CaseStatistics, std::size(quantities)>>;
+CampaignStatistics campaign_statistics(const CampaignData& data);
+
 /// A row a case and quantity, with header; numbers in the quantities' units.
-std::string statistics_csv(const CampaignData& data);
+std::string statistics_csv(const CampaignData& data, const CampaignStatistics& all);
 
 }  // namespace grainfield::triaxial::report

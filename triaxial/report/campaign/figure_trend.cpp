@@ -7,8 +7,6 @@
 #include "core/files/text_file.hpp"
 #include "triaxial/report/campaign/campaign_figures.hpp"
 #include "triaxial/report/text.hpp"
-#include "triaxial/statistics/bootstrap.hpp"
-#include "triaxial/statistics/moments.hpp"
 
 namespace grainfield::triaxial::report {
 namespace {
@@ -55,7 +53,8 @@ AxisName axis_name(const std::string& key) {
 
 std::vector<Trend> trends_over(const CampaignData& data, const std::string& key) {
     std::map<std::string, Trend> lines;
-    for (const CaseData& one : data.cases) {
+    for (std::size_t c = 0; c < data.cases.size(); ++c) {
+        const CaseData& one = data.cases[c];
         const auto at = one.values.find(key);
         const auto x = at == one.values.end() ? std::nullopt : axis_value(at->second);
         if (!x || one.rows.size() < 2) continue;
@@ -68,7 +67,7 @@ std::vector<Trend> trends_over(const CampaignData& data, const std::string& key)
         }
         Trend& line = lines[others];
         line.name = others;
-        line.points.push_back({*x * axis_name(key).scale, &one});
+        line.points.push_back({*x * axis_name(key).scale, c});
     }
     std::vector<Trend> trends;
     for (auto& [name, line] : lines) {
@@ -79,27 +78,25 @@ std::vector<Trend> trends_over(const CampaignData& data, const std::string& key)
     return trends;
 }
 
-Figure trend_figure(const Gnuplot& gnuplot, const std::string& id, const Quantity& quantity,
-                    const std::string& label, std::span<const Trend> trends) {
+Figure trend_figure(const Gnuplot& gnuplot, const std::string& id, std::size_t q,
+                    const std::string& label, std::span<const Trend> trends,
+                    const CampaignStatistics& all) {
+    const Quantity& quantity = quantities[q];
     std::string means, deviations;
     double least = 1e300, most = -1e300;
     for (std::size_t t = 0; t < trends.size(); ++t) {
         std::string rows;
         bool deterministic = false;
         for (const Trend::Point& point : trends[t].points) {
-            const std::vector<double> values = values_of(*point.one, quantity);
-            const double mean = *statistics::mean(values);
-            const auto mean_interval = *statistics::interval_of_mean(values);
-            const double deviation = *statistics::standard_deviation(values);
-            const auto interval = statistics::bootstrap_interval_of_deviation(values).value_or(
-                statistics::Interval{deviation, deviation});
-            const auto& single = point.one->deterministic;
-            deterministic |= single.has_value();
+            const CaseStatistics& s = all[point.case_index][q];
+            const double deviation = *s.deviation;
+            const auto interval =
+                s.deviation_interval.value_or(statistics::Interval{deviation, deviation});
+            deterministic |= s.deterministic.has_value();
             rows +=
-                fmt::format("{} {} {} {} {} {} {} {}\n", point.x, mean, mean_interval.lower,
-                            mean_interval.upper, deviation, interval.lower, interval.upper,
-                            single ? fmt::format("{}", (*single).*quantity.value * quantity.scale)
-                                   : std::string("NaN"));
+                fmt::format("{} {} {} {} {} {} {} {}\n", point.x, *s.mean, s.mean_interval->lower,
+                            s.mean_interval->upper, deviation, interval.lower, interval.upper,
+                            s.deterministic ? fmt::format("{}", *s.deterministic) : "NaN");
             least = std::min(least, point.x);
             most = std::max(most, point.x);
         }
