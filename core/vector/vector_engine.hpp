@@ -76,8 +76,8 @@ class VectorEngine : public Engine {
     };
     enum class Left { nothing, little, enough };  // of the search's reserve
     struct Shortage {
-        std::vector<std::int32_t> exhausted;  // slots of spheres that need other neighbours
-        std::vector<std::int32_t> scarce;     // and of those, too, that soon will
+        bool exhausted = false;            // some need other neighbours
+        std::vector<std::int32_t> scarce;  // slots of these and of those that soon will, ascending
     };
 
     // Lists (vector_lists.inc).

@@ -4,13 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <optional>
 #include <regex>
 #include <set>
 
 #include "core/errors.hpp"
 #include "core/random.hpp"
+#include "tests/report/browser.hpp"
 #include "tests/report/run_fixture.hpp"
 #include "triaxial/campaign/campaign_folder.hpp"
 #include "triaxial/report/campaign/campaign_figures.hpp"
@@ -169,31 +169,17 @@ TEST_F(CampaignReport, DamagedTablesAreNamed) {
     EXPECT_FALSE(std::filesystem::exists(dir / "report.html"));
 }
 
-/// What chromium says of a page, called with these options.
-std::string browser(const std::filesystem::path& folder, const std::filesystem::path& page,
-                    const std::string& options) {
-    const auto log = folder / "chromium.log";
-    const std::string command = fmt::format(
-        "timeout 120 /usr/bin/chromium --headless --no-sandbox --disable-gpu --disable-quic "
-        "--no-first-run --disable-background-networking --disable-component-update --disable-sync "
-        "--hide-scrollbars --enable-logging=stderr --user-data-dir='{}' --window-size=1100,7000 {} "
-        "'file://{}' >'{}' 2>&1",
-        (folder / "profile").string(), options, page.string(), log.string());
-    EXPECT_EQ(std::system(command.c_str()), 0) << read_file(log);
-    return read_file(log);
-}
-
 TEST_F(CampaignReport, RendersInABrowserWithoutErrors) {
-    if (!std::filesystem::exists("/usr/bin/chromium")) GTEST_SKIP() << "chromium is not installed";
+    if (!std::filesystem::exists(testing::chromium)) GTEST_SKIP() << "chromium is not installed";
     const auto page = write_campaign_report(campaign(60));
     const auto picture = folder_.path() / "page.png";
-    const std::string log =
-        browser(folder_.path(), page, fmt::format("--screenshot='{}'", picture.string()));
+    const std::string log = testing::browser(folder_.path(), page, 7000,
+                                             fmt::format("--screenshot='{}'", picture.string()));
     EXPECT_EQ(log.find("CONSOLE"), std::string::npos) << log;
     // A blank page of this size compresses to some 30 kB.
     EXPECT_GT(std::filesystem::file_size(picture), 400'000U);
     // Every figure is in the browser's own tree, too.
-    const std::string tree = browser(folder_.path(), page, "--dump-dom");
+    const std::string tree = testing::browser(folder_.path(), page, 7000, "--dump-dom");
     EXPECT_EQ(occurrences(tree, "<svg"), 20u);
     EXPECT_EQ(occurrences(tree, "<figcaption>"), 20u);
 }
