@@ -25,6 +25,7 @@ class Driver {
         try {
             if (look || control_.due(simulation_)) {
                 simulation_.compute_forces(look);
+                if (look && energies_ && simulation_.steps() >= next_energy_) log_energy();
                 const double step = control_.next(simulation_);
                 steer(step);
                 simulation_.advance(step);
@@ -40,6 +41,14 @@ class Driver {
             monitor_.ended_early(simulation_);
             throw;
         }
+    }
+
+    /// Adds the simulation's ledger to `rows` about every 200 steps, at steps that look, and
+    /// whenever log_energy() is called; forces and sums must be current then.
+    void log_energies_to(std::vector<EnergyRow>& rows) { energies_ = &rows; }
+    void log_energy() {
+        energies_->push_back({simulation_.time(), simulation_.energy()});
+        next_energy_ = simulation_.steps() + energy_interval;
     }
 
     /// Throws SimulationError if the state is broken, Interrupted if the user asked to stop.
@@ -62,6 +71,9 @@ class Driver {
     Simulation& simulation_;
     StepControl control_;
     Monitor& monitor_;
+    static constexpr std::int64_t energy_interval = 200;  // [steps]
+    std::vector<EnergyRow>* energies_ = nullptr;
+    std::int64_t next_energy_ = 0;
 };
 
 }  // namespace grainfield::core

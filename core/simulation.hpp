@@ -10,28 +10,14 @@
 // bits. Results are the same, bit for bit, for any number of threads.
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "core/energy.hpp"
 #include "core/engine.hpp"
 
 namespace grainfield::core {
-
-/// Energies and works [J]. kinetic to gravity are of the present state; the works are sums since
-/// the start. closing() is constant in exact arithmetic of the scheme.
-struct Energy {
-    double kinetic = 0, rotational = 0;            ///< at time n [J]
-    double elastic_normal = 0, elastic_shear = 0;  ///< [J]
-    double friction_work = 0;                      ///< dissipated by slip [J]
-    double damping_work = 0;                       ///< dissipated by local damping [J]
-    double external_work = 0;                      ///< put in by moving walls [J]
-    double gravity = 0;                            ///< potential, -m g.x [J]
-
-    double closing() const {
-        return kinetic + rotational + elastic_normal + elastic_shear + friction_work +
-               damping_work + gravity - external_work;
-    }
-};
 
 class Simulation {
   public:
@@ -99,8 +85,10 @@ class Simulation {
     /// nothing touches and nothing pulls, infinite where nothing touches but something pulls [-].
     double unbalanced_force_ratio() const;
     /// Ledger at the present time; compute_forces(true) must have been called. The works are only
-    /// kept with SimulationOptions::ledger.
+    /// kept with SimulationOptions::ledger. It follows velocities and masses that are changed;
+    /// other properties, gravity or walls shifted at once break it.
     Energy energy() const;
+    bool keeps_ledger() const { return world_->options.ledger; }
 
     // Steering. All take effect with the next advance() or compute_forces().
     void set_wall_velocity(std::size_t wall, const Vec3& velocity);  ///< [m/s]
@@ -114,10 +102,12 @@ class Simulation {
     /// Adds velocity(x) [m/s] to that of every sphere, x its centre [m].
     template <class Field>
     void add_velocities(const Field& velocity) {
-        ParticleStore& s = changing();
-        for (std::size_t i = 0; i < s.size(); ++i)
-            s.velocity.set(i, s.velocity[i] + velocity(i, s.position[i]));
-        engine_->push();
+        world_->external_work += energy_gained([&] {
+            ParticleStore& s = changing();
+            for (std::size_t i = 0; i < s.size(); ++i)
+                s.velocity.set(i, s.velocity[i] + velocity(i, s.position[i]));
+            engine_->push();
+        });
     }
     void set_walls(std::vector<Wall> walls);  ///< replaces all; history with walls is lost
     /// Inertia of each sphere relative to its real mass (mass scaling), >= 1 [-].
@@ -137,6 +127,8 @@ class Simulation {
   private:
     void move_walls(double step);
     ParticleStore& changing();
+    /// Makes a change; with the ledger, the energy that it brought [J].
+    double energy_gained(const std::function<void()>& change);
     void changed();
     void moved();
 

@@ -15,6 +15,18 @@ ParticleStore& Simulation::changing() {
     return world_->scene.spheres;
 }
 
+double Simulation::energy_gained(const std::function<void()>& change) {
+    if (!world_->options.ledger ||
+        world_->forces_at < 0) {  // else a start to begin the ledger with
+        change();
+        return 0;
+    }
+    if (world_->forces_at != world_->steps) compute_forces(true);
+    const double before = energy().closing();
+    change();
+    return energy().closing() - before;
+}
+
 void Simulation::changed() {
     world_->refresh();
     engine_->push();
@@ -53,8 +65,10 @@ void Simulation::set_properties(std::span<const double> normal_stiffness,
 }
 
 void Simulation::scale_velocities(double factor) {
-    engine_->scale_velocities(factor);
-    store_current_ = false;
+    world_->damping_work -= energy_gained([&] {
+        engine_->scale_velocities(factor);
+        store_current_ = false;
+    });
 }
 
 void Simulation::set_walls(std::vector<Wall> walls) {
@@ -67,8 +81,10 @@ void Simulation::set_walls(std::vector<Wall> walls) {
 
 void Simulation::set_inertia_scale(std::span<const double> scale) {
     scene();
-    std::copy(scale.begin(), scale.end(), world_->inertia_scale.begin());
-    changed();
+    world_->external_work += energy_gained([&] {
+        std::copy(scale.begin(), scale.end(), world_->inertia_scale.begin());
+        changed();
+    });
 }
 
 void Simulation::check_state() const {

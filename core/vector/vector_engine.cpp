@@ -111,13 +111,16 @@ template <class T>
 void VectorEngine<T>::pull_resultants() {
     world_.force.resize(world_.size());
     world_.moment.resize(world_.size());
-    for (const Domain<T>& domain : domains_)
+#pragma omp parallel for schedule(static) if (domains_.size() > 1)
+    for (std::size_t d = 0; d < domains_.size(); ++d) {
+        const Domain<T>& domain = domains_[d];
         for (std::size_t k = 0; k < domain.own; ++k) {
             const auto i = static_cast<std::size_t>(order_.sphere[domain.first + k]);
             world_.force.set(
                 i, vec3(domain.loads[k].force) + world_.spheres().mass[i] * world_.scene.gravity);
             world_.moment.set(i, vec3(domain.loads[k].moment));
         }
+    }
 }
 
 template <class T>
@@ -152,7 +155,7 @@ void VectorEngine<T>::move(double step) {
 template <class T>
 void VectorEngine<T>::compute_and_move(double step) {
     if (stale_ || !(used_reserves() < 1)) rebuild();
-    run({.forces = true, .sums = false, .motion = true, .step = step});
+    run({.forces = true, .sums = world_.options.ledger, .motion = true, .step = step});
 }
 
 /// Reads what the next domain needs out of order, so that it is in this core's cache by then;

@@ -30,7 +30,7 @@ class VectorEngine : public Engine {
 
     void compute_forces(bool sums) override;
     void move(double step) override;
-    bool fuses() const override { return !world_.options.ledger; }
+    bool fuses() const override { return true; }
     void compute_and_move(double step) override;
     void pull() override;
     void pull_resultants() override;

@@ -87,6 +87,18 @@ HWY_INLINE Lane3<T> set3(const T* v) {
     return {set(v[0]), set(v[1]), set(v[2])};
 }
 
+/// Which of the indices that follow each other in memory are below a bound (of 2^24 at most).
+template <class T>
+HWY_INLINE LaneMask<T> below(const std::int32_t* index, std::int32_t bound) {
+    const Tag<T> d;
+    const auto whole = hn::LoadU(hn::Rebind<std::int32_t, Tag<T>>(), index);
+    const auto bounds = hn::Set(d, static_cast<T>(bound));
+    if constexpr (sizeof(T) == 8)
+        return hn::Lt(hn::PromoteTo(d, whole), bounds);
+    else
+        return hn::Lt(hn::ConvertTo(d, whole), bounds);
+}
+
 /// Four numbers that follow each other in memory, in four vectors.
 template <class T>
 struct Lane4 {

@@ -65,6 +65,7 @@ MoveResult move_records(SphereRecord<T>* records, const SphereLoad<T>* loads,
     const Lane3<T> gravity = set3<T>(p.gravity);
     const Lane3<T> shift = set3<T>(p.affine_shift), scale = set3<T>(p.affine_scale);
     auto used = zero;
+    [[maybe_unused]] auto twice_work = zero;
     auto sane = hn::Eq(zero, zero);
     for (std::size_t k = 0; k < count; k += n) {
         std::array<const T*, n> at, load_at, place_at;
@@ -82,7 +83,7 @@ MoveResult move_records(SphereRecord<T>* records, const SphereLoad<T>* loads,
         const auto step_work = [&](Lane<T> taken, Lane<T> before, Lane<T> after) HWY_ATTR {
             // Half a step of the old velocity and half a step of the new.
             const auto way = hn::MulAdd(old_step, before, hn::Mul(step, after));
-            result.damping_work += 0.5 * sum_lanes<T>(hn::Mul(taken, way));
+            twice_work = hn::MulAdd(taken, way, twice_work);
         };
         const Lane3<T> v0 = v.xyz();
         v.x = kick.apply(force.x, v.x, damped.x);
@@ -123,6 +124,7 @@ MoveResult move_records(SphereRecord<T>* records, const SphereLoad<T>* loads,
         const Lane3<T> beyond = u.xyz() - affine;
         used = hn::Max(used, hn::Mul(dot(beyond, beyond), hn::Mul(place.w, place.w)));
     }
+    if constexpr (Damping && Ledger) result.damping_work = 0.5 * sum_lanes<T>(twice_work);
     alignas(64) T lane[n];
     hn::Store(used, d, lane);
     for (T value : lane)

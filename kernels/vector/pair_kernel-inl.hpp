@@ -110,22 +110,15 @@ HWY_INLINE void motion_batch(const PairCall<T>& call, PairBatch<T>& batch) {
 
 /// Third stage: forces. Of pairs that do not touch they are zero, and their history is gone.
 template <class T, bool Friction, bool Sums>
-HWY_INLINE void force_batch(const PairCall<T>& call, PairBatch<T>& batch, ContactSums& sums) {
+HWY_INLINE void force_batch(const PairCall<T>& call, PairBatch<T>& batch, LaneSums<T>& sums) {
     const PairLanes<T>& pair = batch.pair;
     const auto fn = hn::Mul(batch.kn, pair.overlap);  // Eq. (3a)
     batch.force = scaled(hn::Neg(fn), pair.normal);
-    [[maybe_unused]] Lane<T> mine;
+    [[maybe_unused]] LaneMask<T> counted;
     if constexpr (Sums) {
-        alignas(64) T counted[lanes<T>];
-        for (std::size_t l = 0; l < lanes<T>; ++l)
-            counted[l] = batch.a[l] < call.parameters.counted ? T(1) : T(0);
-        mine = hn::Load(Tag<T>(), counted);
-        const auto half = set<T>(T(0.5));
-        sums.normal_force += sum_lanes<T>(hn::Mul(mine, fn));
-        sums.elastic_normal +=
-            sum_lanes<T>(hn::Mul(hn::Mul(mine, half), hn::Mul(fn, pair.overlap)));
-        for (std::size_t l = 0; l < lanes<T>; ++l)
-            sums.contacts += counted[l] > 0 ? batch.touching >> l & 1u : 0u;
+        counted = below<T>(batch.a, call.parameters.counted);
+        sums.add_normal(counted, fn, pair.overlap);
+        sums.contacts += __builtin_popcount(batch.touching & bits_of<T>(counted));
     }
     if constexpr (Friction) {
         const ShearLanes<T> spring =
@@ -136,10 +129,7 @@ HWY_INLINE void force_batch(const PairCall<T>& call, PairBatch<T>& batch, Contac
         // The force on the centres does the work of the spring, whose lever arms are the radii.
         batch.force =
             plus_scaled(batch.force, hn::Mul(pair.reach, pair.inverse_distance), spring.shear);
-        if constexpr (Sums) {
-            sums.elastic_shear += sum_lanes<T>(hn::Mul(mine, spring.elastic));
-            sums.friction_work += sum_lanes<T>(hn::Mul(mine, spring.slipped));
-        }
+        if constexpr (Sums) sums.add_shear(counted, spring);
     }
 }
 
@@ -157,7 +147,7 @@ HWY_INLINE void load_batch(const PairCall<T>& call, const PairBatch<T>& batch) {
 /// All stages but the first, of `count` batches.
 template <class T, bool Friction, bool Sums>
 HWY_INLINE void finish_batches(const PairCall<T>& call, PairBatch<T>* batches, std::size_t count,
-                               ContactSums& sums) {
+                               LaneSums<T>& sums) {
     if constexpr (Friction)
         for (std::size_t q = 0; q < count; ++q) motion_batch<T>(call, batches[q]);
     for (std::size_t q = 0; q < count; ++q) force_batch<T, Friction, Sums>(call, batches[q], sums);
@@ -166,7 +156,8 @@ HWY_INLINE void finish_batches(const PairCall<T>& call, PairBatch<T>* batches, s
 
 /// Candidates that are close: one batch after the other, history in place.
 template <class T, bool Friction, bool PerSphere, bool Sums>
-HWY_INLINE void close_forces(const PairCall<T>& call, LaneMask<T>& too_deep, PassResult& result) {
+HWY_INLINE void close_forces(const PairCall<T>& call, LaneMask<T>& too_deep, LaneSums<T>& sums,
+                             PassResult& result) {
     constexpr std::size_t n = lanes<T>;
     const Candidates<T>& c = call.candidates;
     const auto zero = hn::Zero(Tag<T>());
@@ -188,7 +179,7 @@ HWY_INLINE void close_forces(const PairCall<T>& call, LaneMask<T>& too_deep, Pas
                 c.touching[k / most_lanes] | batch.touching << (k % most_lanes));
             result.contacts += __builtin_popcount(batch.touching);
         }
-        finish_batches<T, Friction, Sums>(call, batches, count, result.sums);
+        finish_batches<T, Friction, Sums>(call, batches, count, sums);
         if constexpr (Friction)
             for (std::size_t q = 0; q < count; ++q) {
                 const Lane3<T>& shear = batches[q].shear;
@@ -225,7 +216,8 @@ HWY_INLINE std::size_t find_touching(const PairCall<T>& call) {
 
 /// The candidates picked out by find_touching().
 template <class T, bool Friction, bool PerSphere, bool Sums>
-HWY_INLINE void picked_forces(const PairCall<T>& call, LaneMask<T>& too_deep, PassResult& result) {
+HWY_INLINE void picked_forces(const PairCall<T>& call, LaneMask<T>& too_deep, LaneSums<T>& sums,
+                              PassResult& result) {
     constexpr std::size_t n = lanes<T>;
     const Candidates<T>& c = call.candidates;
     const std::size_t picked = find_touching<T>(call);
@@ -247,7 +239,7 @@ HWY_INLINE void picked_forces(const PairCall<T>& call, LaneMask<T>& too_deep, Pa
         batch.b = b.data();
         if constexpr (Friction) batch.shear = load4<T>(history, 0).xyz();
         approach_batch<T, Friction, PerSphere>(call, load4<T>(separation, 0), batch, too_deep);
-        finish_batches<T, Friction, Sums>(call, &batch, 1, result.sums);
+        finish_batches<T, Friction, Sums>(call, &batch, 1, sums);
         if constexpr (Friction)
             store4<T>({batch.shear.x, batch.shear.y, batch.shear.z, hn::Zero(Tag<T>())}, history_to,
                       0);
@@ -261,8 +253,10 @@ PassResult pair_forces(const SphereRecord<T>* records, Candidates<T> c, SphereLo
     PassResult result;
     const PairCall<T> call{records, c, loads, p};
     auto too_deep = hn::Lt(hn::Zero(d), hn::Zero(d));
-    close_forces<T, Friction, PerSphere, Sums>(call, too_deep, result);
-    picked_forces<T, Friction, PerSphere, Sums>(call, too_deep, result);
+    LaneSums<T> sums;
+    close_forces<T, Friction, PerSphere, Sums>(call, too_deep, sums, result);
+    picked_forces<T, Friction, PerSphere, Sums>(call, too_deep, sums, result);
+    if constexpr (Sums) result.sums = sums.total();
     result.too_deep = !hn::AllFalse(d, too_deep);
     return result;
 }

@@ -36,6 +36,7 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
     Lane3<T> sum{zero, zero, zero};
     auto stiffness_sum = zero;
     auto too_deep = hn::Lt(zero, zero);
+    LaneSums<T> sums;
     for (std::size_t word = 0; word < c.size / most_lanes; ++word) {
         std::uint32_t now = 0;
         for (std::size_t part = 0; part < most_lanes; part += n) {
@@ -85,21 +86,13 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
                 force = force + shear;
                 const Lane3<T> moment = scaled(u.w, cross(outward, shear));
                 add4<T>({moment.x, moment.y, moment.z, zero}, load, 4);
-                if constexpr (Sums) {
-                    result.sums.elastic_shear +=
-                        sum_lanes<T>(hn::IfThenElseZero(touching, spring.elastic));
-                    result.sums.friction_work +=
-                        sum_lanes<T>(hn::IfThenElseZero(touching, spring.slipped));
-                }
+                if constexpr (Sums) sums.add_shear(touching, spring);
             }
             add4<T>({force.x, force.y, force.z, hn::IfThenElseZero(touching, one)}, load, 0);
             sum = sum + force;
             stiffness_sum = hn::Add(stiffness_sum, kn);
             result.contacts += __builtin_popcount(bits);
-            if constexpr (Sums) {
-                result.sums.normal_force += sum_lanes<T>(fn);
-                result.sums.elastic_normal += sum_lanes<T>(hn::Mul(half, hn::Mul(fn, overlap)));
-            }
+            if constexpr (Sums) sums.add_normal(touching, fn, overlap);
         }
         for (std::uint32_t opened = c.touching[word] & ~now; opened != 0; opened &= opened - 1) {
             const std::size_t k =
@@ -114,6 +107,7 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
         }
         c.touching[word] = static_cast<std::uint16_t>(now);
     }
+    if constexpr (Sums) result.sums += sums.total();
     result.sums.contacts = result.contacts;
     result.too_deep = !hn::AllFalse(d, too_deep);
     total.force -= Vec3(sum_lanes<T>(sum.x), sum_lanes<T>(sum.y), sum_lanes<T>(sum.z));

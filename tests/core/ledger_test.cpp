@@ -63,6 +63,64 @@ TEST_P(Ledger, ClosesToATenthOfAPercentAndWithTheStep) {
     }
 }
 
+/// Spheres that fall together between walls that move.
+Scene busy_scene() {
+    Scene scene = scene_of(loose_balls({6, 6, 6}, 1.05, 0.5), 0.4);
+    scene.walls = box_walls(loose_box({6, 6, 6}, 1.05), plane(Vec3::Zero(), Vec3::UnitX(), 0.3));
+    scene.gravity = Vec3(0, -9.81, 0);
+    scene.damping = {0.2, 0.2};
+    scene.walls[3].velocity = Vec3(0.05, -0.3, 0);
+    return scene;
+}
+
+constexpr double busy_step = 1e-4;  // [s]
+
+TEST_P(Ledger, IsTheSameInOneCallAStepAndChangesNothing) {
+    Simulation two(busy_scene(), table(), {.ledger = true});
+    Simulation one(busy_scene(), table(), {.ledger = true});
+    Simulation without(busy_scene(), table());
+    for (int k = 0; k < 1500; ++k) {
+        two.compute_forces();
+        two.advance(busy_step);
+        one.step(busy_step, [] {});
+        without.step(busy_step, [] {});
+    }
+    for (Simulation* s : {&two, &one, &without}) s->compute_forces(true);
+    EXPECT_GT(two.energy().friction_work, 0);
+    EXPECT_GT(two.energy().damping_work, 0);
+    EXPECT_EQ(one.energy().friction_work, two.energy().friction_work);
+    EXPECT_EQ(one.energy().damping_work, two.energy().damping_work);
+    EXPECT_EQ(one.energy().external_work, two.energy().external_work);
+    EXPECT_EQ(one.energy().closing(), two.energy().closing());
+    EXPECT_EQ(one.state_hash(), without.state_hash());
+    EXPECT_EQ(two.state_hash(), without.state_hash());
+}
+
+TEST_P(Ledger, FollowsVelocitiesAndMassesThatAreChanged) {
+    Simulation sim(busy_scene(), table(), {.ledger = true});
+    for (int k = 0; k < 800; ++k) sim.step(busy_step, [] {});
+    sim.compute_forces(true);
+    const Energy before = sim.energy();
+    // Energies are sums of a few hundred terms in the precision of the engine.
+    const double tolerance = roundoff(1e3) * (before.kinetic + before.elastic_normal);
+    const auto expect_closed = [&](const char* what) {
+        EXPECT_NEAR(sim.energy().closing(), before.closing(), tolerance) << what;
+    };
+    sim.scale_velocities(0.5);
+    expect_closed("slowed");
+    EXPECT_GT(sim.energy().damping_work, before.damping_work + 0.5 * before.kinetic);
+    sim.add_velocities([](std::size_t, const Vec3& x) { return Vec3(-x.y(), 0.3, 0); });
+    expect_closed("given velocities");
+    EXPECT_GT(sim.energy().external_work, before.external_work);
+    sim.set_inertia_scale(std::vector<double>(sim.size(), 3.0));
+    expect_closed("made heavier");
+    // Forces that are not current, as between two steps in one call each.
+    sim.step(busy_step, [] {});
+    sim.scale_velocities(0.9);
+    sim.compute_forces(true);
+    EXPECT_NEAR(sim.energy().closing(), before.closing(), 1e-3 * before.kinetic);
+}
+
 TEST_P(Ledger, DampedFallIsExact) {
     Scene scene = scene_of({Ball{.v = Vec3(0.3, -1.0, 0)}});
     scene.gravity = Vec3(0, -9.81, 0);

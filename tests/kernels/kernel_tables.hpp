@@ -36,7 +36,7 @@ inline std::vector<KernelCase> kernel_cases() {
 }
 
 /// Base of all tests that run on every table.
-class KernelTest : public testing::TestWithParam<KernelCase> {
+class KernelTest : public ::testing::TestWithParam<KernelCase> {
   protected:
     void SetUp() override {
         if (GetParam().table == nullptr)
@@ -62,7 +62,7 @@ class KernelTest : public testing::TestWithParam<KernelCase> {
 
 }  // namespace grainfield::kernels
 
-#define GRAINFIELD_FOR_ALL_KERNELS(suite)                                            \
-    INSTANTIATE_TEST_SUITE_P(Kernels, suite,                                         \
-                             testing::ValuesIn(grainfield::kernels::kernel_cases()), \
+#define GRAINFIELD_FOR_ALL_KERNELS(suite)                                              \
+    INSTANTIATE_TEST_SUITE_P(Kernels, suite,                                           \
+                             ::testing::ValuesIn(grainfield::kernels::kernel_cases()), \
                              [](const auto& test_info) { return test_info.param.name; })

@@ -57,13 +57,33 @@ TEST(Report, HoldsEveryFigure) {
     const auto path = write_report(folder.path());
     EXPECT_EQ(path, folder.path() / "report.html");
     const std::string page = testing::read_file(path);
-    EXPECT_EQ(occurrences(page, "<svg"), 5U);
+    EXPECT_EQ(occurrences(page, "<svg"), 6U);
     EXPECT_EQ(occurrences(page, "src=\"data:image/png;base64,iVBORw0KGgo"), 1U);
-    EXPECT_EQ(occurrences(page, "<figcaption>"), 6U);
+    EXPECT_EQ(occurrences(page, "<figcaption>"), 7U);
     for (const char* caption :
          {"secant to half the peak", "Mohr circle at peak", "Lateral stresses",
-          "coloured by normal stiffness", "Grading of the sample", "settled under its own weight"})
+          "The sum closes to 0.0010 % of the work put in", "coloured by normal stiffness",
+          "Grading of the sample", "settled under its own weight"})
         EXPECT_THAT(page, HasSubstr(caption));
+}
+
+TEST(Report, OfARunWithoutALedgerLeavesItsFigureOut) {
+    const TestFolder folder;
+    testing::write_run(folder.path(), {});
+    std::filesystem::remove(folder.path() / "energy.csv");
+    const std::string page = testing::read_file(write_report(folder.path()));
+    EXPECT_EQ(occurrences(page, "<svg"), 5U);
+    EXPECT_THAT(page, Not(HasSubstr("energy ledger from the start")));
+}
+
+TEST(Report, NamesTheLineOfABrokenLedger) {
+    const TestFolder folder;
+    testing::write_run(folder.path(), {});
+    const auto path = folder.path() / "energy.csv";
+    const std::string text = testing::read_file(path);
+    testing::write_file(path, text.substr(0, text.find('\n') + 1) + "0,1,2,x,4,5,6,7,8\n");
+    EXPECT_EQ(message_of<FileError>(folder.path()),
+              path.string() + ":2: 'x' is not a finite number");
 }
 
 TEST(Report, NeedsNothingFromOutside) {
@@ -136,7 +156,7 @@ TEST(Report, DoesWithoutAPacking) {
     const TestFolder folder;
     testing::write_run(folder.path(), {.field = Field::friction, .packing = false});
     const std::string page = testing::read_file(write_report(folder.path()));
-    EXPECT_EQ(occurrences(page, "<svg"), 3U);
+    EXPECT_EQ(occurrences(page, "<svg"), 4U);
     EXPECT_THAT(page, HasSubstr("holds no <code>packing.json</code>"));
 }
 

@@ -54,6 +54,19 @@ std::string curve_csv(const FixtureOptions& o) {
     return text;
 }
 
+/// Work grows, most of it lost to friction and damping; 1e-3 J are missing at the end.
+std::string energy_csv() {
+    std::string text =
+        "time_s,kinetic_J,rotational_J,elastic_normal_J,elastic_shear_J,friction_work_J,"
+        "damping_work_J,external_work_J,gravity_J\n";
+    for (int i = 0; i <= 40; ++i) {
+        const double work = 2.5 * i, lost = 25e-6 * i;
+        text += fmt::format("{},{},{},{},{},{},{},{},0\n", 0.005 * i, 0.01 * work, 0.01 * work,
+                            0.2 * work, 0.05 * work, 0.5 * work, 0.23 * work - lost, -work);
+    }
+    return text;
+}
+
 ordered_json packing_json() {
     const std::vector<double> sieves{0.010, 0.020, 0.040, 0.100, 0.160, 0.200};
     const std::vector<double> target{0, 0, 31.47, 90.93, 99.64, 100};
@@ -114,6 +127,8 @@ ordered_json summary_json(const FixtureOptions& o, std::size_t particles) {
                          {"time_step_s", 3.214e-5},
                          {"inertial_number", 8.1e-4},
                          {"lateral_stress_rms_error", 0.00093},
+                         {"energy_closing_error", 0.00087},
+                         {"shear_began_s", 0.03},
                          {"lateral_stress_max_error", 0.0026},
                          {"first_q_minimum_ratio", -0.0021},
                          {"wall_seconds",
@@ -208,6 +223,7 @@ ordered_json write_run(const std::filesystem::path& dir, const FixtureOptions& o
     ordered_json summary = summary_json(options, state.spheres.size());
     write_file(dir / "summary.json", summary.dump(2));
     write_file(dir / "curve.csv", curve_csv(options));
+    write_file(dir / "energy.csv", energy_csv());
     write_file(dir / "config.toml",
                "# comment with <angle> & ampersand\n[triaxial]\nconfining_stress = 100e3\n"
                "strain_rate = 0.1\nmax_axial_strain = \"auto\"\n\n[particle]\ndensity = 2600\n");

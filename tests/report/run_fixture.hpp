@@ -20,8 +20,8 @@ struct FixtureOptions {
     bool packing = true;  ///< with packing.json
 };
 
-/// Writes summary.json, curve.csv, config.toml, packing.json and state.h5 and gives back the
-/// summary.
+/// Writes summary.json, curve.csv, energy.csv, config.toml, packing.json and state.h5 and gives
+/// back the summary.
 nlohmann::ordered_json write_run(const std::filesystem::path& dir, const FixtureOptions& options);
 
 /// A folder of its own for the running test, removed at the end unless GRAINFIELD_KEEP is set.

@@ -70,9 +70,10 @@ struct FinishedTest {
 };
 
 /// Runs the whole test on the sample.
-inline FinishedTest run(Sample sample, const Config& config) {
-    core::Simulation simulation(make_scene(std::move(sample), config),
-                                kernels::reference_kernels());
+inline FinishedTest run(Sample sample, const Config& config,
+                        const kernels::KernelTable& kernels = kernels::reference_kernels(),
+                        const core::SimulationOptions& options = {}) {
+    core::Simulation simulation(make_scene(std::move(sample), config), kernels, options);
     core::Monitor monitor;
     TestResult result = run_test(simulation, config, monitor);
     return {std::move(result), std::move(simulation)};

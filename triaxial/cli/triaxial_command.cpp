@@ -73,6 +73,12 @@ void print_results(const TestResult& r, const Config& config, const FieldRecord&
     print_row("steps", fmt::format("{} isotropic, {} shear, {:.2f} us each", r.isotropic_steps,
                                    r.shear_steps, 1e6 * r.mean_step));
     print_row("ended because", r.end_reason);
+    print_row(
+        "energy",
+        fmt::format("{:.4g} J put in, {:.4g} J friction, {:.4g} J damping; the sum "
+                    "closes to {:.2g} %",
+                    r.energies.back().energy.external_work, r.energies.back().energy.friction_work,
+                    r.energies.back().energy.damping_work, 100 * r.energy_closing_error));
 }
 
 void run_triaxial(const Arguments& arguments, Session& session) {
@@ -95,11 +101,13 @@ void run_triaxial(const Arguments& arguments, Session& session) {
     const FieldRecord field = map_field(config, arguments.realization, sample);
     times.field = seconds_since(start);
 
-    core::Simulation simulation = make_simulation(std::move(sample), config, kernels,
-                                                  arguments.packing.value_or("the packing"));
+    core::Simulation simulation =
+        make_simulation(std::move(sample), config, kernels,
+                        arguments.packing.value_or("the packing"), {.ledger = true});
     const TestResult result = keeper.run([&] { return run_test(simulation, config, keeper); });
     core::write_file_atomically(out / "config.toml", write_config(config));
     core::write_file_atomically(out / "curve.csv", curve_csv(result.curve));
+    core::write_file_atomically(out / "energy.csv", energy_csv(result.energies));
     write_state(out / "state.h5", simulation);
     const nlohmann::json summary =
         run_summary(result, field, config, simulation, times, session.threads);

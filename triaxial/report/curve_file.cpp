@@ -1,15 +1,12 @@
 #include "triaxial/report/curve_file.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 #include <string_view>
+#include <utility>
 
-#include "core/errors.hpp"
-#include "core/files/text_file.hpp"
+#include "triaxial/report/number_table.hpp"
 
 namespace grainfield::triaxial::report {
 namespace {
@@ -17,7 +14,7 @@ namespace {
 constexpr std::string_view header =
     "axial_strain,deviator_stress_Pa,axial_stress_Pa,lateral_stress_x_Pa,lateral_stress_z_Pa,"
     "volumetric_strain,unbalanced_force_ratio,time_s,contacts";
-constexpr std::array columns{&Curve::axial_strain,
+constexpr std::array members{&Curve::axial_strain,
                              &Curve::deviator_stress,
                              &Curve::axial_stress,
                              &Curve::lateral_stress_x,
@@ -27,35 +24,12 @@ constexpr std::array columns{&Curve::axial_strain,
                              &Curve::time,
                              &Curve::contacts};
 
-void parse_row(std::string_view line, const std::string& where, Curve& curve) {
-    for (std::size_t column = 0; column < columns.size(); ++column) {
-        if (line.empty())
-            throw FileError(fmt::format("{}: {} cells, must be {}", where, column, columns.size()));
-        const std::string_view cell = core::next_field(line, ',');
-        double value = 0;
-        if (!core::parse_number(core::trim(cell), value))
-            throw FileError(
-                fmt::format("{}: '{}' is not a finite number", where, core::shortened(cell)));
-        (curve.*columns[column]).push_back(value);
-    }
-    if (!line.empty())
-        throw FileError(fmt::format("{}: more than {} cells", where, columns.size()));
-}
-
 }  // namespace
 
 Curve read_curve(const std::filesystem::path& path) {
-    const std::string text = core::read_whole_file(path);
-    core::LineReader reader(text);
-    const auto where = [&] { return fmt::format("{}:{}", path.string(), reader.number()); };
-    std::string_view line;
-    if (!reader.next(line) || line != header)
-        throw FileError(fmt::format("{}:1: the header must be '{}'", path.string(), header));
+    std::vector<std::vector<double>> columns = read_number_table(path, header);
     Curve curve;
-    while (reader.next_content(line)) parse_row(line, where(), curve);
-    if (curve.size() < 2)
-        throw FileError(
-            fmt::format("{}: {} rows, must be two at least", path.string(), curve.size()));
+    for (std::size_t c = 0; c < members.size(); ++c) curve.*members[c] = std::move(columns[c]);
     return curve;
 }
 

@@ -28,8 +28,7 @@ struct ServoError {
     double max = 0;  ///< the same, largest at any record after 0.1 % of strain [-]
 };
 
-/// Reads curve.csv. Throws FileError naming the file and line: another header, a cell that is not
-/// a finite number, too few or too many cells, fewer than two rows.
+/// Reads curve.csv. Throws FileError as read_number_table().
 Curve read_curve(const std::filesystem::path& path);
 
 ServoError servo_error(const Curve& curve, double confining_stress);

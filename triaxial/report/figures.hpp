@@ -26,6 +26,10 @@ Figure mohr_figure(const Gnuplot& gnuplot, const MohrCircle& run,
 /// Lateral stresses over their target with a band of 0.5 %.
 Figure servo_figure(const Gnuplot& gnuplot, const RunFolder& run);
 
+/// Where the work of the walls went, over time, and how well the ledger closes; energies must be
+/// there.
+Figure energy_figure(const Gnuplot& gnuplot, const RunFolder& run);
+
 /// Sieve curve reached beside its target. Throws FileError where the lengths do not fit.
 Figure grading_figure(const Gnuplot& gnuplot, const JsonFile& packing);
 

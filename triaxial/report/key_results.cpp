@@ -103,6 +103,9 @@ Table accuracy_table(const RunFolder& run) {
     b.number(
         "first_q_minimum_ratio", "Drop of <i>q</i> when shear begins",
         [](double v) { return percent(v); }, "over σ<sub>3</sub>; aim: not below −1 %");
+    b.number(
+        "energy_closing_error", "Energy ledger closes to", [](double v) { return percent(v, 2); },
+        "largest change of the sum over the work put in");
     if (const auto inertial = run.summary.optional_number("inertial_number"))
         b.row("Inertial number", significant(*inertial, 3), inertia_in_words(*inertial));
     b.number("time_step_s", "Time step", [](double v) { return significant(1e6 * v) + " µs"; });

@@ -62,6 +62,10 @@ std::string build_page(const RunFolder& run, std::span<const MohrCircle> compani
     page.figures(
         std::array{stress_strain_figure(gnuplot, run), mohr_figure(gnuplot, circle, companions)});
     page.figures(std::array{servo_figure(gnuplot, run)}, "wide");
+    if (!run.energies.empty()) {
+        page.section("Energy");
+        page.figures(std::array{energy_figure(gnuplot, run)}, "wide");
+    }
     page.section("Sample");
     page.figures(std::array{sample_figure(gnuplot, run)}, "sample");
     add_packing(gnuplot, run, page);

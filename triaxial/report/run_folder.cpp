@@ -5,8 +5,10 @@
 #include <toml++/toml.h>
 
 #include "core/errors.hpp"
+#include "core/files/energy_csv.hpp"
 #include "core/files/sphere_file.hpp"
 #include "core/files/text_file.hpp"
+#include "triaxial/report/number_table.hpp"
 
 namespace grainfield::triaxial::report {
 namespace {
@@ -41,6 +43,23 @@ std::string read_config(const std::filesystem::path& path) {
     return text;
 }
 
+std::vector<core::EnergyRow> read_energies(const std::filesystem::path& path) {
+    if (!std::filesystem::exists(path)) return {};  // of an earlier version
+    const auto columns = read_number_table(path, core::energy_header);
+    std::vector<core::EnergyRow> rows(columns[0].size());
+    for (std::size_t r = 0; r < rows.size(); ++r)
+        rows[r] = {columns[0][r],
+                   {.kinetic = columns[1][r],
+                    .rotational = columns[2][r],
+                    .elastic_normal = columns[3][r],
+                    .elastic_shear = columns[4][r],
+                    .friction_work = columns[5][r],
+                    .damping_work = columns[6][r],
+                    .external_work = -columns[7][r],
+                    .gravity = columns[8][r]}};
+    return rows;
+}
+
 }  // namespace
 
 RunFolder read_run_folder(const std::filesystem::path& dir) {
@@ -51,6 +70,7 @@ RunFolder read_run_folder(const std::filesystem::path& dir) {
                   .results = {},
                   .curve = read_curve(dir / "curve.csv"),
                   .config = read_config(dir / "config.toml"),
+                  .energies = read_energies(dir / "energy.csv"),
                   .packing = std::nullopt,
                   .spheres = {},
                   .box = {}};

@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "core/energy.hpp"
 #include "core/particle_store.hpp"
 #include "triaxial/report/curve_file.hpp"
 #include "triaxial/report/json_file.hpp"
@@ -27,10 +29,11 @@ struct RunFolder {
     JsonFile summary;
     KeyResults results;
     Curve curve;
-    std::string config;               ///< config.toml as it stands
-    std::optional<JsonFile> packing;  ///< packing.json; none where the packing was a .csv
-    core::ParticleStore spheres;      ///< the final sample
-    core::Box box;                    ///< of the final sample
+    std::string config;                     ///< config.toml as it stands
+    std::vector<core::EnergyRow> energies;  ///< energy.csv; empty where there is none
+    std::optional<JsonFile> packing;        ///< packing.json; none where the packing was a .csv
+    core::ParticleStore spheres;            ///< the final sample
+    core::Box box;                          ///< of the final sample
 };
 
 /// Throws FileError naming the file that is missing or corrupt, and how.

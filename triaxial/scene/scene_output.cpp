@@ -1,9 +1,8 @@
 #include "triaxial/scene/scene_output.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/files/energy_csv.hpp"
 #include "core/files/folder.hpp"
 #include "core/files/sphere_file.hpp"
 #include "triaxial/scene/contact_table.hpp"
@@ -14,10 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* trajectory_header = "time_s,id,x,y,z,vx,vy,vz,wx,wy,wz";
-constexpr const char* energy_header =
-    "time_s,kinetic_J,rotational_J,elastic_normal_J,elastic_shear_J,friction_work_J,"
-    "damping_work_J,external_work_J,gravity_J";
-
 fs::path made_folder(const fs::path& folder) {
     core::create_folder(folder);
     return folder;
@@ -63,7 +58,7 @@ std::string summary_text(const SceneSummary& s) {
 SceneOutput::SceneOutput(const fs::path& folder)
     : folder_(made_folder(folder)),
       trajectory_(folder / "trajectory.csv", trajectory_header),
-      energy_(folder / "energy.csv", energy_header) {}
+      energy_(folder / "energy.csv", core::energy_header) {}
 
 void SceneOutput::add(const core::Simulation& simulation, double time) {
     const core::Vec3Column& position = simulation.spheres().position;
@@ -78,22 +73,9 @@ void SceneOutput::add(const core::Simulation& simulation, double time) {
 
     const core::Energy e = simulation.energy();
     energy_.add(time);
-    // 0 - w, not -w: a wall that did no work shows as 0, not as -0.
-    for (const double value : {e.kinetic, e.rotational, e.elastic_normal, e.elastic_shear,
-                               e.friction_work, e.damping_work, 0.0 - e.external_work, e.gravity})
-        energy_.add(value);
+    for (const double value : core::energy_columns(e)) energy_.add(value);
     energy_.end_row();
-
-    if (!first_) first_ = e;
-    for (const double value :
-         {e.kinetic, e.rotational, e.elastic_normal, e.elastic_shear, e.friction_work,
-          e.damping_work, e.external_work, e.gravity - first_->gravity})
-        largest_energy_ = std::max(largest_energy_, std::abs(value));
-    largest_change_ = std::max(largest_change_, std::abs(e.closing() - first_->closing()));
-}
-
-double SceneOutput::energy_closing_error() const {
-    return largest_energy_ > 0 ? largest_change_ / largest_energy_ : 0.0;
+    closing_.add(e);
 }
 
 void SceneOutput::finish(const core::Simulation& simulation, const SceneSummary& summary) {

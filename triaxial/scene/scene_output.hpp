@@ -2,7 +2,6 @@
 // The files of a scene's run (interface.md, "Files").
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "core/simulation.hpp"
@@ -25,9 +24,7 @@ class SceneOutput {
     /// Adds the present state at `time` [s]; compute_forces(true) must have been called.
     void add(const core::Simulation& simulation, double time);
 
-    /// Largest change of the sum of energies since the start, over the largest of the energies and
-    /// works (gravity_J counted from the start) [-].
-    double energy_closing_error() const;
+    double energy_closing_error() const { return closing_.error(); }  ///< [-]
 
     /// The tables take their names; contacts.csv and summary.json are written.
     void finish(const core::Simulation& simulation, const SceneSummary& summary);
@@ -35,8 +32,7 @@ class SceneOutput {
   private:
     std::filesystem::path folder_;
     CsvStream trajectory_, energy_;
-    std::optional<core::Energy> first_;
-    double largest_energy_ = 0, largest_change_ = 0;  // [J]
+    core::EnergyClosing closing_;
 };
 
 /// Saves spheres, walls and touching contacts as `folder`/state.h5, whatever state they are in, and

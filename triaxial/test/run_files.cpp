@@ -1,9 +1,11 @@
 #include "triaxial/test/run_files.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
+#include "core/files/energy_csv.hpp"
 #include "core/files/sphere_file.hpp"
 
 namespace grainfield::triaxial {
@@ -33,6 +35,14 @@ nlohmann::json field_json(const FieldRecord& field, const Config& config) {
                            {"correlation_length", {theta.x(), theta.y(), theta.z()}}};
     if (field.covariance_error) json["covariance_error"] = *field.covariance_error;
     return json;
+}
+
+/// The ledger at the end [J].
+nlohmann::json energy_json(const core::Energy& e) {
+    return {{"external_work", e.external_work}, {"friction_work", e.friction_work},
+            {"damping_work", e.damping_work},   {"elastic_normal", e.elastic_normal},
+            {"elastic_shear", e.elastic_shear}, {"kinetic", e.kinetic},
+            {"rotational", e.rotational},       {"gravity", e.gravity}};
 }
 
 }  // namespace
@@ -84,6 +94,11 @@ nlohmann::json run_summary(const TestResult& r, const FieldRecord& field, const 
         {"precision", simulation.kernel_table().precision},
         {"threads", threads},
         {"version", GRAINFIELD_VERSION}};
+    if (!r.energies.empty()) {
+        json["energy_closing_error"] = r.energy_closing_error;
+        json["energy_J"] = energy_json(r.energies.back().energy);
+        json["shear_began_s"] = r.shear_began;
+    }
     if (field.variable != randomfield::Variable::none) json["field"] = field_json(field, config);
     return json;
 }
@@ -96,6 +111,14 @@ std::string curve_csv(const std::vector<CurvePoint>& curve) {
         fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{}\n", p.axial_strain,
                        p.deviator_stress, p.axial_stress, p.lateral_stress_x, p.lateral_stress_z,
                        p.volumetric_strain, p.unbalanced_force_ratio, p.time, p.contacts);
+    return text;
+}
+
+std::string energy_csv(const std::vector<core::EnergyRow>& energies) {
+    std::string text = fmt::format("{}\n", core::energy_header);
+    for (const core::EnergyRow& row : energies)
+        fmt::format_to(std::back_inserter(text), "{},{}\n", row.time,
+                       fmt::join(core::energy_columns(row.energy), ","));
     return text;
 }
 

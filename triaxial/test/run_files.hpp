@@ -1,5 +1,5 @@
 #pragma once
-// The files of a triaxial run (interface.md): summary.json, curve.csv, state.h5, config.toml.
+// The files of a triaxial run (interface.md): summary.json, curve.csv, energy.csv, state.h5.
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -21,6 +21,9 @@ nlohmann::json run_summary(const TestResult& result, const FieldRecord& field, c
 
 /// curve.csv, header and units of the contract.
 std::string curve_csv(const std::vector<CurvePoint>& curve);
+
+/// energy.csv, as that of a scene; from the start of the isotropic stage.
+std::string energy_csv(const std::vector<core::EnergyRow>& energies);
 
 /// state.h5: the spheres as they are, with their box, properties and touching contacts. `kind`
 /// says what the file is: "state", or "start" of other tests.

@@ -44,11 +44,12 @@ core::Scene make_scene(Sample sample, const Config& config) {
 }
 
 core::Simulation make_simulation(Sample sample, const Config& config,
-                                 const kernels::KernelTable& kernels, const std::string& name) {
+                                 const kernels::KernelTable& kernels, const std::string& name,
+                                 const core::SimulationOptions& options) {
     const std::vector<Sample::ContactShear> contacts = std::move(sample.contacts);
     core::Scene scene = make_scene(std::move(sample), config);
     core::check_start(scene, name);
-    core::Simulation simulation(std::move(scene), kernels);
+    core::Simulation simulation(std::move(scene), kernels, options);
     if (contacts.empty()) return simulation;
     simulation.compute_forces();
     // One that just so touched may be apart by round-off: it carried next to nothing.
@@ -62,6 +63,8 @@ TestResult run_test(core::Simulation& simulation, const Config& config, core::Mo
     result.porosity = 1 - solid / packing::box_dimensions(simulation).prod();
     result.inertial_number = inertial_number(simulation.spheres(), config);
     core::Driver driver(simulation, config.time, monitor);
+    const bool ledger = simulation.keeps_ledger();
+    if (ledger) driver.log_energies_to(result.energies);
 
     auto start = std::chrono::steady_clock::now();
     monitor.begin("isotropic compression");
@@ -70,6 +73,8 @@ TestResult run_test(core::Simulation& simulation, const Config& config, core::Mo
     result.isotropic_steps = isotropic.steps;
     result.isotropic_unbalanced = isotropic.unbalanced_force_ratio;
     result.isotropic_stress_error = isotropic.stress_error;
+    if (ledger) driver.log_energy();
+    result.shear_began = simulation.time();
     result.isotropic_seconds = seconds_since(start);
 
     result.sheared_porosity = 1 - solid / packing::box_dimensions(simulation).prod();
@@ -80,6 +85,10 @@ TestResult run_test(core::Simulation& simulation, const Config& config, core::Mo
     monitor.begin("shear");
     ShearStage shear(driver, config.triaxial);
     shear.run();
+    if (ledger) driver.log_energy();
+    core::EnergyClosing closing;
+    for (const core::EnergyRow& row : result.energies) closing.add(row.energy);
+    result.energy_closing_error = closing.error();
     result.curve = shear.curve();
     result.end_reason = shear.end_reason();
     result.shear_steps = shear.steps();

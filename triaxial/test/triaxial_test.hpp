@@ -45,6 +45,11 @@ struct TestResult {
     double isotropic_unbalanced = 0;    ///< at the end of the isotropic stage [-]
     double isotropic_stress_error = 0;  ///< largest of the six walls then [-]
     double isotropic_seconds = 0, shear_seconds = 0;  ///< wall time [s]
+
+    // Where the simulation keeps the ledger.
+    std::vector<core::EnergyRow> energies;  ///< from the start of the isotropic stage
+    double shear_began = 0;                 ///< on the clock of `energies` [s]
+    double energy_closing_error = 0;  ///< largest change of their sum over the work put in [-]
 };
 
 /// The scene of a test: six walls of the box, friction and stiffness of the config's wall.
@@ -53,7 +58,8 @@ core::Scene make_scene(Sample sample, const Config& config);
 /// make_scene() as a simulation, its spheres and overlaps checked (`name` stands for them in
 /// messages), its contacts with the shear forces of the sample. Throws InputError.
 core::Simulation make_simulation(Sample sample, const Config& config,
-                                 const kernels::KernelTable& kernels, const std::string& name);
+                                 const kernels::KernelTable& kernels, const std::string& name,
+                                 const core::SimulationOptions& options = {});
 
 /// Runs both stages on a simulation made of make_scene(). Throws SimulationError and Interrupted;
 /// the simulation then holds the state reached.
