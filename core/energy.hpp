@@ -17,6 +17,8 @@ struct Energy {
     double damping_work = 0;   ///< dissipated by local damping and by slowing all spheres [J]
     double external_work = 0;  ///< put in by moving walls, velocities given, masses scaled [J]
     double gravity = 0;        ///< potential, -m g.x [J]
+    /// Part of external_work: of walls that push; others, that yield, take work out [J]
+    double work_put_in = 0;
 
     double closing() const {
         return kinetic + rotational + elastic_normal + elastic_shear + friction_work +
@@ -31,12 +33,12 @@ class EnergyClosing {
         if (!first_) first_ = e;
         for (const double value :
              {e.kinetic, e.rotational, e.elastic_normal, e.elastic_shear, e.friction_work,
-              e.damping_work, e.external_work, e.gravity - first_->gravity})
+              e.damping_work, e.external_work, e.gravity - first_->gravity, e.work_put_in})
             largest_ = std::max(largest_, std::abs(value));
         change_ = std::max(change_, std::abs(e.closing() - first_->closing()));
     }
-    /// Largest change of closing() since the first entry over the largest entry; in a test driven
-    /// by walls that is the work put in [-].
+    /// Largest change of closing() since the first entry over the largest energy or work; in a test
+    /// driven by walls that is the work put in [-].
     double error() const { return largest_ > 0 ? change_ / largest_ : 0.0; }
 
   private:

@@ -91,6 +91,7 @@ Energy Simulation::energy() const {
     e.friction_work = world_->friction_work;
     e.damping_work = world_->damping_work + state.half_step_damping;
     e.external_work = world_->external_work;
+    e.work_put_in = world_->work_put_in;
     return e;
 }
 

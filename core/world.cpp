@@ -99,9 +99,13 @@ void World::end_evaluation() {
     if (options.ledger) {
         friction_work += contact_sums.friction_work;
         // Work of the walls on the spheres over the last step, trapezoidal rule.
-        for (std::size_t w = 0; w < planes.size(); ++w)
-            external_work -= 0.5 * elapsed() *
-                             planes[w].velocity.dot(wall_loads[w].force + last_wall_loads[w].force);
+        for (std::size_t w = 0; w < planes.size(); ++w) {
+            const double work =
+                -0.5 * elapsed() *
+                planes[w].velocity.dot(wall_loads[w].force + last_wall_loads[w].force);
+            external_work += work;
+            work_put_in += std::max(0.0, work);
+        }
     }
     forces_at = steps;
 }

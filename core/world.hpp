@@ -32,8 +32,9 @@ struct World {
     // What the last force evaluation found.
     Vec3Column force, moment;  ///< resultants, gravity included; where Engine::pull brings them
     std::vector<kernels::WallLoad> wall_loads, last_wall_loads;
-    kernels::ContactSums contact_sums;                              ///< where sums were asked for
-    double friction_work = 0, damping_work = 0, external_work = 0;  ///< with the ledger [J]
+    kernels::ContactSums contact_sums;  ///< where sums were asked for
+    // With the ledger [J].
+    double friction_work = 0, damping_work = 0, external_work = 0, work_put_in = 0;
 
     // The clock.
     double time = 0;              ///< [s]

@@ -62,7 +62,7 @@ TEST(Report, HoldsEveryFigure) {
     EXPECT_EQ(occurrences(page, "<figcaption>"), 7U);
     for (const char* caption :
          {"secant to half the peak", "Mohr circle at peak", "Lateral stresses",
-          "The sum closes to 0.0010 % of the work put in", "coloured by normal stiffness",
+          "The sum closes to 0.087 % of the work put in", "coloured by normal stiffness",
           "Grading of the sample", "settled under its own weight"})
         EXPECT_THAT(page, HasSubstr(caption));
 }

@@ -73,12 +73,12 @@ void print_results(const TestResult& r, const Config& config, const FieldRecord&
     print_row("steps", fmt::format("{} isotropic, {} shear, {:.2f} us each", r.isotropic_steps,
                                    r.shear_steps, 1e6 * r.mean_step));
     print_row("ended because", r.end_reason);
-    print_row(
-        "energy",
-        fmt::format("{:.4g} J put in, {:.4g} J friction, {:.4g} J damping; the sum "
-                    "closes to {:.2g} %",
-                    r.energies.back().energy.external_work, r.energies.back().energy.friction_work,
-                    r.energies.back().energy.damping_work, 100 * r.energy_closing_error));
+    const core::Energy& energy = r.energies.back().energy;
+    print_row("energy",
+              fmt::format("{:.4g} J put in, {:.4g} J net, {:.4g} J friction, {:.4g} J damping; the "
+                          "sum closes to {:.2g} % of the work put in",
+                          energy.work_put_in, energy.external_work, energy.friction_work,
+                          energy.damping_work, 100 * r.energy_closing_error));
 }
 
 void run_triaxial(const Arguments& arguments, Session& session) {

@@ -7,15 +7,14 @@ namespace grainfield::triaxial::report {
 
 Figure energy_figure(const Gnuplot& gnuplot, const RunFolder& run) {
     std::string rows;
-    core::EnergyClosing closing;
     for (const auto& [time, e] : run.energies) {
-        closing.add(e);
         rows += fmt::format("{} {} {} {} {} {}\n", time, e.external_work, e.friction_work,
                             e.damping_work, e.elastic_normal + e.elastic_shear,
                             e.kinetic + e.rotational);
     }
     gnuplot.data("energy.dat", rows);
     const double last = run.energies.back().time;
+    const double error = run.summary.number("energy_closing_error");
     const double began = run.summary.optional_number("shear_began_s").value_or(0.0);
     const std::string script = fmt::format(
         R"(set lmargin at screen 0.075
@@ -42,7 +41,7 @@ plot 'energy.dat' using 1:2 with lines lw 2.4 lc rgb '{ink}' title 'put in by th
             fmt::format("The energy ledger from the start of the isotropic stage, in which loose "
                         "spheres are slowed (counted as damping). The sum closes to {} % of the "
                         "work put in.",
-                        significant(100 * closing.error(), 2))};
+                        significant(100 * error, 2))};
 }
 
 }  // namespace grainfield::triaxial::report

@@ -39,10 +39,15 @@ nlohmann::json field_json(const FieldRecord& field, const Config& config) {
 
 /// The ledger at the end [J].
 nlohmann::json energy_json(const core::Energy& e) {
-    return {{"external_work", e.external_work}, {"friction_work", e.friction_work},
-            {"damping_work", e.damping_work},   {"elastic_normal", e.elastic_normal},
-            {"elastic_shear", e.elastic_shear}, {"kinetic", e.kinetic},
-            {"rotational", e.rotational},       {"gravity", e.gravity}};
+    return {{"work_put_in", e.work_put_in},
+            {"external_work", e.external_work},
+            {"friction_work", e.friction_work},
+            {"damping_work", e.damping_work},
+            {"elastic_normal", e.elastic_normal},
+            {"elastic_shear", e.elastic_shear},
+            {"kinetic", e.kinetic},
+            {"rotational", e.rotational},
+            {"gravity", e.gravity}};
 }
 
 }  // namespace
