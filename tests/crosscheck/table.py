@@ -96,20 +96,27 @@ def curves(work):
 100 kPa, 0.1/s, to 3 % of axial strain, steps of {1e6 * STEP:g} µs; each code brings the sample to the
 isotropic stress and shears it, with its own servo. Runs of one code start from positions that differ by
 1e-12 m. Differences are RMS over the curve, from the mean of Grainfield's runs (of a run of
-Grainfield: from the mean of its other runs), over the peak of that mean; "rise": up to 0.5 % of strain.
+Grainfield: from the mean of its other runs), over the peak of that mean; "rise": up to 0.5 % of strain;
+"scatter": the difference to expect of so many runs from the scatter of Grainfield's alone.
 
 **Noise floor** (one run of Grainfield): {100 * floor:.2f} %, rise {100 * early:.2f} %.
 
-| code | run | peak (kPa) | at strain (%) | E50 (MPa) | difference (%) | rise (%) |
-|---|---|---|---|---|---|---|
+| code | run | peak (kPa) | at strain (%) | E50 (MPa) | difference (%) | scatter (%) | rise (%) |
+|---|---|---|---|---|---|---|---|
 '''
+    one = floor / np.sqrt(1 + 1 / (len(own) - 1))  # deviation of a run from the true mean
     for row in rows:
         values = [float(row[c]) for c in ('peak_Pa', 'strain_at_peak', 'E50_Pa', 'difference',
                                           'difference_early')]
+        runs = 1 if row['run'] != 'mean' else sum(r['code'] == row['code'] for r in rows) - 1
+        expected = f'{100 * one * np.sqrt(1 / runs + 1 / len(own)):.2f}'
+        if row['code'] == 'grainfield':
+            expected = '' if row['run'] == 'mean' else f'{100 * floor:.2f}'
         mark = '**' if row['run'] == 'mean' else ''
         cells = [NAMES[row['code']], row['run'], f'{values[0] / 1e3:.1f}', f'{100 * values[1]:.2f}',
-                 f'{values[2] / 1e6:.2f}', f'{100 * values[3]:.2f}', f'{100 * values[4]:.2f}']
-        out += '| ' + ' | '.join(mark + cell + mark for cell in cells) + ' |\n'
+                 f'{values[2] / 1e6:.2f}', f'{100 * values[3]:.2f}', expected,
+                 f'{100 * values[4]:.2f}']
+        out += '| ' + ' | '.join(mark + cell + mark if cell else '' for cell in cells) + ' |\n'
     return out + '\n' + stages(work) + '\n![Curves](curves.png)\n'
 
 
