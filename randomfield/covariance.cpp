@@ -61,7 +61,7 @@ double gaussian_cell_average(double u, std::int32_t lag) {
 }
 
 LocalAverageCovariance::LocalAverageCovariance(const Vec3& cell_size,
-                                               const Vec3& correlation_length,
+                                               const CorrelationModel& correlation,
                                                const std::array<std::int32_t, 3>& lags)
     : lags_(lags), table_(static_cast<std::size_t>(lags[0]) * lags[1] * lags[2], 0.0) {
     std::array<std::vector<double>, 3> factor;
@@ -74,7 +74,7 @@ LocalAverageCovariance::LocalAverageCovariance(const Vec3& cell_size,
             kStep / (2.0 * kSqrtPi * root_t) * std::exp(-0.25 / (root_t * root_t));
         for (std::size_t d = 0; d < 3; ++d) {
             const auto axis = static_cast<Eigen::Index>(d);
-            const double u = 2.0 * root_t * (cell_size[axis] / correlation_length[axis]);
+            const double u = 2.0 * root_t * (cell_size[axis] / correlation.length[axis]);
             factor[d].resize(static_cast<std::size_t>(lags[d]));
             for (std::int32_t k = 0; k < lags[d]; ++k) {
                 factor[d][static_cast<std::size_t>(k)] = gaussian_cell_average(u, k);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernels/vec3.hpp"
+#include "randomfield/correlation.hpp"
 
 namespace grainfield::randomfield {
 
@@ -19,8 +20,8 @@ double gaussian_cell_average(double u, std::int32_t lag);
 /// distance in cells. Tabulated once for all lags below `lags` in each direction.
 class LocalAverageCovariance {
   public:
-    /// cell_size and correlation_length (theta) in metres, all > 0.
-    LocalAverageCovariance(const Vec3& cell_size, const Vec3& correlation_length,
+    /// cell_size in metres, all > 0.
+    LocalAverageCovariance(const Vec3& cell_size, const CorrelationModel& correlation,
                            const std::array<std::int32_t, 3>& lags);
 
     /// Covariance at a lag in cells; the sign does not matter [-].

@@ -21,7 +21,7 @@ void check_size(const GridSpec& grid) {
 
 }  // namespace
 
-Eigen::MatrixXd linear_map(const LasGenerator& generator) {
+Eigen::MatrixXd linear_map(const Generator& generator) {
     check_size(generator.grid());
     const auto cells = static_cast<Eigen::Index>(generator.grid().size());
     const auto normals = static_cast<Eigen::Index>(generator.normals());
@@ -35,9 +35,9 @@ Eigen::MatrixXd linear_map(const LasGenerator& generator) {
     return map;
 }
 
-Eigen::MatrixXd exact_covariance(const GridSpec& grid, const Vec3& correlation_length) {
+Eigen::MatrixXd exact_covariance(const GridSpec& grid, const CorrelationModel& correlation) {
     check_size(grid);
-    const LocalAverageCovariance of_lag(grid.cell_size, correlation_length, grid.cells);
+    const LocalAverageCovariance of_lag(grid.cell_size, correlation, grid.cells);
     const auto [nx, ny, nz] = grid.cells;
     const auto n = static_cast<Eigen::Index>(grid.size());
     const auto cell = [nx = nx, ny = ny](Eigen::Index index) {
@@ -55,10 +55,10 @@ Eigen::MatrixXd exact_covariance(const GridSpec& grid, const Vec3& correlation_l
     return covariance;
 }
 
-CovarianceError covariance_error(const LasGenerator& generator, const Vec3& correlation_length) {
+CovarianceError covariance_error(const Generator& generator) {
     const Eigen::MatrixXd map = linear_map(generator);
     const Eigen::MatrixXd error =
-        map * map.transpose() - exact_covariance(generator.grid(), correlation_length);
+        map * map.transpose() - exact_covariance(generator.grid(), generator.correlation());
     return {error.cwiseAbs().maxCoeff() / generator.gamma(),
             error.diagonal().cwiseAbs().maxCoeff() / generator.gamma()};
 }

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "randomfield/las_generator.hpp"
+#include "randomfield/generator.hpp"
 
 namespace grainfield::randomfield {
 
@@ -12,10 +12,10 @@ namespace grainfield::randomfield {
 inline constexpr std::size_t max_error_cells = 2048;
 
 /// M, one row a cell and one column a normal. InputError above max_error_cells.
-Eigen::MatrixXd linear_map(const LasGenerator& generator);
+Eigen::MatrixXd linear_map(const Generator& generator);
 
 /// C, the exact covariance of the grid's cells. InputError above max_error_cells.
-Eigen::MatrixXd exact_covariance(const GridSpec& grid, const Vec3& correlation_length);
+Eigen::MatrixXd exact_covariance(const GridSpec& grid, const CorrelationModel& correlation);
 
 /// In units of gamma, the variance of one cell.
 struct CovarianceError {
@@ -23,6 +23,6 @@ struct CovarianceError {
     double variance = 0.0;    ///< largest on the diagonal [-]
 };
 
-CovarianceError covariance_error(const LasGenerator& generator, const Vec3& correlation_length);
+CovarianceError covariance_error(const Generator& generator);
 
 }  // namespace grainfield::randomfield

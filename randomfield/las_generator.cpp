@@ -3,15 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "randomfield/covariance.hpp"
-
 namespace grainfield::randomfield {
 namespace {
-
-GridSpec checked(const GridSpec& grid) {
-    grid.validate();
-    return grid;
-}
 
 // The grid whose cells are 2 x 2 x 2 of this one's; a direction of one cell stays as it is.
 GridSpec coarser(const GridSpec& fine) {
@@ -37,12 +30,11 @@ std::vector<GridSpec> grids_of_stages(const GridSpec& grid, std::int64_t stage0_
 
 }  // namespace
 
-LasGenerator::LasGenerator(const GridSpec& grid, const Vec3& correlation_length,
+LasGenerator::LasGenerator(const GridSpec& grid, const CorrelationModel& correlation,
                            std::int64_t stage0_cells)
-    : grid_(checked(grid)),
-      stage0_(grids_of_stages(grid, stage0_cells).front(), correlation_length) {
+    : Generator(grid, correlation),
+      stage0_(grids_of_stages(grid, stage0_cells).front(), correlation) {
     normals_ = stage0_.normals();
-    gamma_ = LocalAverageCovariance(grid.cell_size, correlation_length, {1, 1, 1}).gamma();
     const std::vector<GridSpec> grids = grids_of_stages(grid, stage0_cells);
     for (std::size_t s = 1; s < grids.size(); ++s) {
         Stage stage;
@@ -53,22 +45,22 @@ LasGenerator::LasGenerator(const GridSpec& grid, const Vec3& correlation_length,
             stage.split[d] = stage.children[d] > 1 ? 2 : 1;
             stage.children_each *= static_cast<std::size_t>(stage.split[d]);
         }
-        stage.stencils = subdivision_stencils(grids[s].cell_size, stage.split, correlation_length,
-                                              stage.parents);
+        stage.stencils =
+            subdivision_stencils(grids[s].cell_size, stage.split, correlation, stage.parents);
         normals_ += grids[s - 1].size() * (stage.children_each - 1);
         stages_.push_back(std::move(stage));
     }
 }
 
 const CellCount& LasGenerator::stage_cells(std::size_t stage) const {
-    return stage == stages_.size() ? grid_.cells : stages_.at(stage).parents;
+    return stage == stages_.size() ? grid().cells : stages_.at(stage).parents;
 }
 
 void LasGenerator::subdivide(const Stage& stage, std::span<const double> normals,
                              std::span<const double> parents, std::span<double> children) const {
     constexpr std::size_t kMax = SubdivisionStencil::max_children;
-    const GridSpec coarse{stage.parents, grid_.cell_size};
-    const GridSpec fine{stage.children, grid_.cell_size};
+    const GridSpec coarse{stage.parents, grid().cell_size};
+    const GridSpec fine{stage.children, grid().cell_size};
     const std::size_t noisy = stage.children_each - 1;
     // Each parent writes its own children only, and always by the same sums.
 #pragma omp parallel for schedule(static) if (coarse.size() > 4096)
@@ -118,7 +110,7 @@ std::vector<std::vector<double>> LasGenerator::apply_stages(std::span<const doub
     std::size_t used = stage0_.normals();
     for (const Stage& stage : stages_) {
         const std::size_t count = fields.back().size() * (stage.children_each - 1);
-        std::vector<double> children(GridSpec{stage.children, grid_.cell_size}.size());
+        std::vector<double> children(GridSpec{stage.children, grid().cell_size}.size());
         subdivide(stage, normals.subspan(used, count), fields.back(), children);
         fields.push_back(std::move(children));
         used += count;

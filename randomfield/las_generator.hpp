@@ -20,29 +20,25 @@ namespace grainfield::randomfield {
 /// 0.396, 0.201, 0.112, 0.012 gamma at theta_y = 0.01, 0.1, 0.5, 1, 10 m; variances are exact. A
 /// second stage takes the first one's covariances for exact, and variances drift as well: by up to
 /// 0.27 gamma from 2 x 3 x 2 cells. So stage 0 should be as large as it may.
-class LasGenerator {
+class LasGenerator final : public Generator {
   public:
     /// Largest stage 0 unless told otherwise: that of Fenton's own program [cells].
     static constexpr std::int64_t default_stage0_cells = 512;
 
     /// Uses the fewest subdivisions whose stage 0 has no more than stage0_cells cells; a grid that
     /// small is not subdivided at all, and the field is exact. InputError as CholeskyGenerator.
-    LasGenerator(const GridSpec& grid, const Vec3& correlation_length,
+    LasGenerator(const GridSpec& grid, const CorrelationModel& correlation,
                  std::int64_t stage0_cells = default_stage0_cells);
 
-    [[nodiscard]] const GridSpec& grid() const { return grid_; }
-    /// Number of standard normals a field takes: stage 0, then each stage, parent by parent.
-    [[nodiscard]] std::size_t normals() const { return normals_; }
+    /// Stage 0, then each stage, parent by parent.
+    [[nodiscard]] std::size_t normals() const override { return normals_; }
+    [[nodiscard]] bool exact() const override { return stages_.empty(); }
     /// Number of subdivisions; 0 means that the field is exact.
-    [[nodiscard]] std::size_t subdivisions() const { return stages_.size(); }
+    [[nodiscard]] std::size_t subdivisions() const override { return stages_.size(); }
     /// Cells of the grid after a number of subdivisions, 0 ... subdivisions().
     [[nodiscard]] const CellCount& stage_cells(std::size_t stage) const;
-    /// Exact variance of one cell of the final grid, gamma(D) [-].
-    [[nodiscard]] double gamma() const { return gamma_; }
 
-    /// field = M normals, of normals() and of one number a cell. Safe from many threads, the same
-    /// on any number of them.
-    void apply(std::span<const double> normals, std::span<double> field) const;
+    void apply(std::span<const double> normals, std::span<double> field) const override;
     /// The fields of all stages, stage 0 first: what apply() goes through.
     [[nodiscard]] std::vector<std::vector<double>> apply_stages(
         std::span<const double> normals) const;
@@ -59,11 +55,9 @@ class LasGenerator {
     void subdivide(const Stage& stage, std::span<const double> normals,
                    std::span<const double> parents, std::span<double> children) const;
 
-    GridSpec grid_;
     std::vector<Stage> stages_;
     CholeskyGenerator stage0_;
     std::size_t normals_ = 0;
-    double gamma_ = 0.0;
 };
 
 }  // namespace grainfield::randomfield

@@ -136,7 +136,7 @@ TEST(Covariance, OneDimensionalFactorAgreesWithQuadrature) {
 // theta far below the cell: gamma = int rho / V (1 - sum E|tau_d| / D + ...), with
 // int exp(-2 |x| / theta) d3x = pi theta^3 and E|tau_d| = 3/4 theta under that weight.
 TEST(Covariance, ShortCorrelationLengthsAreWhiteNoise) {
-    const LocalAverageCovariance covariance(kBlock, 1e-3 * kBlock, {3, 3, 3});
+    const LocalAverageCovariance covariance(kBlock, Vec3(1e-3 * kBlock), {3, 3, 3});
     const double white = std::numbers::pi * 1e-9;
     EXPECT_NEAR(covariance.gamma() / white, 1.0 - 3.0 * 0.75e-3, 5e-6);  // next: (theta / D)^2
     EXPECT_LT(covariance(1, 0, 0) / covariance.gamma(), 1e-3);

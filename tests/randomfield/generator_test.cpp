@@ -8,6 +8,7 @@
 #include "randomfield/cholesky_generator.hpp"
 #include "randomfield/covariance.hpp"
 #include "randomfield/field_error.hpp"
+#include "randomfield/las_generator.hpp"
 #include "tests/randomfield/field_support.hpp"
 
 namespace grainfield::randomfield {
@@ -87,7 +88,7 @@ TEST(Cholesky, IsExactForAnyGridAndCorrelationLength) {
               paper_theta(3e4), Vec3(3e4, 0.1, 3e4), Vec3(1e-3, 3e4, 2.0), Vec3(3e4, 0.3, 0.3)}) {
             const LasGenerator generator(grid, theta);
             ASSERT_EQ(generator.subdivisions(), 0u);
-            const CovarianceError error = covariance_error(generator, theta);
+            const CovarianceError error = covariance_error(generator);
             EXPECT_LT(error.covariance, 1e-12) << theta.transpose();
         }
     }
@@ -129,7 +130,7 @@ TEST(Las, OneSubdivisionHasTheKnownErrors) {
         ASSERT_EQ(las.subdivisions(), 1u);
         EXPECT_EQ(las.stage_cells(0), (CellCount{3, 6, 3}));
         EXPECT_EQ(las.normals(), 432u);
-        const CovarianceError error = covariance_error(las, paper_theta(row.theta_y));
+        const CovarianceError error = covariance_error(las);
         EXPECT_NEAR(error.covariance, row.error, 0.5e-3) << row.theta_y;  // the last digit known
         // After one split the variances are exact: round-off of sums over 27 parents.
         EXPECT_LT(error.variance, 1e-12) << row.theta_y;
@@ -200,7 +201,7 @@ TEST(Las, AnyGridWorksAndLargerStagesAreCloser) {
                 const LasGenerator las(grid, theta, stage0);
                 const CellCount& first = las.stage_cells(0);
                 EXPECT_LE(first[0] * first[1] * first[2], stage0);
-                const CovarianceError error = covariance_error(las, theta);
+                const CovarianceError error = covariance_error(las);
                 EXPECT_LT(error.covariance, 0.7) << theta_y << " stage 0 " << stage0;
                 EXPECT_LT(error.variance, 0.35) << theta_y << " stage 0 " << stage0;
                 if (theta_y > 1e3) {
@@ -208,7 +209,7 @@ TEST(Las, AnyGridWorksAndLargerStagesAreCloser) {
                 }
             }
             const LasGenerator exact(grid, theta, 1000);
-            EXPECT_LT(covariance_error(exact, theta).covariance, 1e-12);
+            EXPECT_LT(covariance_error(exact).covariance, 1e-12);
         }
     }
     const LasGenerator cell(grid_of(1, 1, 1), paper_theta(1.0), 1);
