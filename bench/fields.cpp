@@ -79,7 +79,7 @@ double median_seconds(double budget, const Action& action) {
 }
 
 /// What can be computed without sampling in reasonable time.
-std::optional<double> covariance_error(const randomfield::Generator& generator) {
+std::optional<double> known_error(const randomfield::Generator& generator) {
     if (const auto* circulant = dynamic_cast<const randomfield::CirculantGenerator*>(&generator)) {
         return circulant->covariance_error();
     }
@@ -88,7 +88,11 @@ std::optional<double> covariance_error(const randomfield::Generator& generator) 
 }
 
 bench::FieldPoint measure(const Problem& problem, double theta_y, double budget) {
-    bench::FieldPoint point{problem.name, problem.cells, theta_y, problem.stage0};
+    bench::FieldPoint point;
+    point.method = problem.name;
+    point.cells = problem.cells;
+    point.theta_y = theta_y;
+    point.stage0 = problem.stage0;
     const GridSpec grid = grid_of(problem.cells);
     const auto make = [&] {
         return randomfield::make_generator(
@@ -112,7 +116,7 @@ bench::FieldPoint measure(const Problem& problem, double theta_y, double budget)
         random.normals(realization++, 0, normals);
         generator->apply(normals, field);
     });
-    point.error = covariance_error(*generator);
+    point.error = known_error(*generator);
     return point;
 }
 

@@ -79,9 +79,10 @@ void normals(const std::array<std::uint32_t, 2>& key, std::uint64_t realization,
     constexpr std::size_t n = HWY_LANES(double);
     Tails tails;
     double uniform[kBlock + HWY_MAX_BYTES / 4];
-    double value[kBlock + HWY_MAX_BYTES / 8];
+    double end[kBlock + HWY_MAX_BYTES / 8];  // the last, incomplete block
     for (std::size_t from = 0; from < size; from += kBlock) {
         const std::size_t count = std::min(kBlock, size - from);
+        double* const value = count == kBlock ? values + from : end;
         tails.count = 0;
         // Apart from what follows: two long chains of operations in one loop would not overlap.
         for (std::size_t i = 0; i < count; i += 2 * n) {
@@ -117,7 +118,7 @@ void normals(const std::array<std::uint32_t, 2>& key, std::uint64_t realization,
             const bool far = std::min(p, 1.0 - p) < 2e-11;
             value[tails.place[t]] = far ? normal_quantile(p) : p < 0.5 ? -tails.r[t] : tails.r[t];
         }
-        std::copy_n(value, count, values + from);
+        if (value == end) std::copy_n(end, count, values + from);
     }
 }
 

@@ -91,26 +91,33 @@ CellCount LasGenerator::stage_cells(std::size_t stage) const {
 template <class Visit>
 void LasGenerator::run(std::span<const double> normals, const Visit& visit) const {
     // Kept from field to field: fresh memory of this size would cost as much as the field.
-    thread_local std::vector<double> rows, details, children, plain;
+    // Three buffers as large as the last grid, two of which take turns.
+    thread_local std::vector<double> buffers[3];
+    std::size_t largest = stage0_.normals();
+    for (const Halving& stage : stages_) {
+        largest = std::max(largest, GridSpec{stage.children(), {}}.size());
+    }
+    for (std::vector<double>& buffer : buffers) {
+        if (buffer.size() < largest) buffer.resize(largest);
+    }
+    std::span<double> rows = buffers[0], children = buffers[1];
+    const std::span<double> details = buffers[2];
     const CellCount& first = stages_.front().parents();
     const auto n0 = static_cast<std::size_t>(first[0]);
-    plain.resize(stage0_.normals());
-    rows.resize(plain.size());
+    const std::span<double> plain = details.first(stage0_.normals());
     stage0_.apply(normals.first(plain.size()), plain);
     for (std::size_t c = 0; c < plain.size(); ++c) {
         const auto i = static_cast<std::int32_t>(c % n0);
         rows[c - c % n0 + static_cast<std::size_t>(place_in_row(i, first[0]))] = plain[c];
     }
-    visit(first, rows);
+    visit(first, rows.first(plain.size()));
     std::size_t used = plain.size();
     for (const Halving& stage : stages_) {
-        details.resize(stage.size());
-        children.resize(GridSpec{stage.children(), {}}.size());
         stage.draw_details(normals.subspan(used, stage.size()), rows, details);
         stage.make_children(rows, details, children);
         used += stage.size();
         std::swap(rows, children);
-        visit(stage.children(), rows);
+        visit(stage.children(), rows.first(GridSpec{stage.children(), {}}.size()));
     }
 }
 

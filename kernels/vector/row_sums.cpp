@@ -1,5 +1,7 @@
 #include "kernels/vector/row_sums.hpp"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/vector/row_sums.cpp"
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
@@ -40,20 +42,20 @@ void sum_rows(std::size_t count, double scale, const double* first, const double
         hn::StoreU(sum0, d, out + t);
         hn::StoreU(sum1, d, out + t + n);
     }
-    const auto one = [&](auto tag) HWY_ATTR {
-        auto sum = hn::Mul(hn::Set(tag, scale), hn::LoadU(tag, first + t));
-        for (const RowTerm& term : a) {
-            sum = plus_product(sum, hn::Set(tag, term.weight),
-                               hn::LoadU(tag, a_base + term.offset + t));
-        }
-        for (const RowTerm& term : b) {
-            sum = plus_product(sum, hn::Set(tag, term.weight),
-                               hn::LoadU(tag, b_base + term.offset + t));
-        }
-        hn::StoreU(sum, tag, out + t);
-    };
-    for (; t + n <= count; t += n) one(d);
-    for (; t < count; ++t) one(hn::CappedTag<double, 1>());
+    for (; t < count; t += n) {
+        // Lanes beyond the end are neither read nor written.
+        const auto here = hn::FirstN(d, std::min(n, count - t));
+        auto sum = hn::Mul(hn::Set(d, scale), hn::MaskedLoad(here, d, first + t));
+        const auto add = [&](const double* base, std::span<const RowTerm> terms) HWY_ATTR {
+            for (const RowTerm& term : terms) {
+                sum = plus_product(sum, hn::Set(d, term.weight),
+                                   hn::MaskedLoad(here, d, base + term.offset + t));
+            }
+        };
+        add(a_base, a);
+        add(b_base, b);
+        hn::BlendedStore(sum, here, d, out + t);
+    }
 }
 
 void multiply_lower(std::size_t size, const double* l, const double* x, double* product) {

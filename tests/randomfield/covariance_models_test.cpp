@@ -59,7 +59,11 @@ double graded_integral(const CorrelationModel& model, const Vec3& cell, const La
     for (std::size_t d = 0; d < 3; ++d) {
         const double theta = unit[static_cast<int>(d)];
         for (const Piece& piece : pieces_of(lag[d])) {
-            const auto some = graded(piece, std::min(1.0, tip * theta), std::min(1.0, theta));
+            // The Gaussian falls the faster the farther out.
+            const bool gaussian = model.kind == Correlation::gaussian;
+            const double most =
+                std::min(1.0, theta / (gaussian ? std::max(1.0, piece.low / theta) : 1.0));
+            const auto some = graded(piece, std::min(tip * theta, most), most);
             parts[d].insert(parts[d].end(), some.begin(), some.end());
         }
     }

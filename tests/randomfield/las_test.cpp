@@ -1,6 +1,7 @@
 // Local average subdivision, the default and the published one: conservation, errors, any grid.
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <cmath>
 #include <limits>
@@ -8,6 +9,7 @@
 #include "randomfield/field_error.hpp"
 #include "randomfield/las_classic_generator.hpp"
 #include "randomfield/las_generator.hpp"
+#include "randomfield/memory_limit.hpp"
 #include "tests/randomfield/field_support.hpp"
 
 namespace grainfield::randomfield {
@@ -166,6 +168,22 @@ TEST(Las, FineGridsStartFromAtMost512Cells) {
     EXPECT_EQ(classic.normals(), 48u * 96u * 48u);
 }
 
+// EXPECT_EQ on doubles: the same bits on any number of threads, a large grid being shared by them.
+TEST(Las, DoesNotDependOnThreads) {
+    const LasGenerator las(grid_of({48, 48, 48}, 0.03125), paper_theta(0.1));
+    const std::vector<double> normals = some_normals(las.normals());
+    std::vector<std::vector<double>> fields;
+    const int before = omp_get_max_threads();
+    for (const int threads : {1, 2, 3}) {
+        omp_set_num_threads(threads);
+        fields.emplace_back(las.grid().size());
+        las.apply(normals, fields.back());
+    }
+    omp_set_num_threads(before);
+    EXPECT_EQ(fields[0], fields[1]);
+    EXPECT_EQ(fields[0], fields[2]);
+}
+
 TEST(Las, RefusesWhatCannotBe) {
     const auto refused = [](const CellCount& cells, const Vec3& theta) {
         return input_error([&] { LasGenerator(grid_of(cells), theta); });
@@ -175,6 +193,8 @@ TEST(Las, RefusesWhatCannotBe) {
     EXPECT_NE(refused({2, 2, 2}, Vec3(1, 0, 1)).find("field.correlation_length = [1, 0, 1]"),
               std::string::npos);
     EXPECT_NE(refused({2, 2, 2}, Vec3(1, std::nan(""), 1)).find("nan"), std::string::npos);
+    EXPECT_NE(input_error([] { require_memory(GridSpec{}, 1e18, "las"); }).find("need 1e+09 GB"),
+              std::string::npos);
     GridSpec flat;
     flat.cell_size[1] = 0.0;
     EXPECT_NE(input_error([&] { LasGenerator(flat, paper_theta(1.0)); }).find("cell size"),
