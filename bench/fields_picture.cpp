@@ -21,6 +21,8 @@ constexpr Style styles[] = {{"las-classic", colour::contrast, 5},
                             {"cholesky", colour::ink, 9},
                             {"circulant", colour::soft, 13}};
 
+constexpr double exact = 1e-4;  // where errors of round-off are drawn
+
 }  // namespace
 
 std::string fields_picture(const std::vector<FieldPoint>& points) {
@@ -34,14 +36,14 @@ std::string fields_picture(const std::vector<FieldPoint>& points) {
     std::string script = fmt::format(R"(
 set multiplot layout 1,{}
 set logscale xy
-set xrange [3:1e5]
-set yrange [1e-17:5]
+set xrange [3:3e5]
+set yrange [4e-5:2]
 set format x '10^{{%T}}'
-set format y '10^{{%T}}'
+set ytics ('exact' 1e-4, '0.001' 1e-3, '0.01' 1e-2, '0.1' 1e-1, '1' 1)
 set grid lc rgb '{}'
 set xlabel 'Time a cell, normals included (ns)'
 set ylabel 'Largest covariance error (γ)'
-set key bottom right
+set key at graph 0.98,0.72 right top
 )",
                                      panels, colour::grid);
     for (std::size_t g = 0; g < grids.size(); ++g) {
@@ -52,7 +54,7 @@ set key bottom right
                 if (p.cells != grids[g] || p.method != style.method || !p.error) continue;
                 const double cells = 1.0 * p.cells[0] * p.cells[1] * p.cells[2];
                 data += fmt::format("{} {} \"{:g}\"\n", 1e9 * p.field / cells,
-                                    std::max(*p.error, 2e-17), p.theta_y);
+                                    std::max(*p.error, exact), p.theta_y);
             }
             if (data.empty()) continue;
             const std::string file = fmt::format("{}-{}.dat", style.method, g);

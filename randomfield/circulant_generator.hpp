@@ -18,8 +18,8 @@ namespace grainfield::randomfield {
 /// threads; FFTW adapts its order of sums to the CPU, so between CPUs the last bits may differ.
 class CirculantGenerator final : public Generator {
   public:
-    /// Largest period: 2^26 cells, 1.6 GB.
-    static constexpr double max_period_cells = 67108864.0;
+    /// Largest period: 2^25 cells, 1.3 GB while it is set up.
+    static constexpr double max_period_cells = 33554432.0;
     /// Negative eigenvalues that change no covariance by more than this, in units of gamma, are
     /// round-off of the FFT, and count as zero [-].
     static constexpr double round_off = 1e-11;

@@ -57,7 +57,7 @@ TEST(Circulant, NegativeEigenvaluesAreRefusedWithTheirSize) {
     EXPECT_THAT(input_error([] {
                     CirculantGenerator(grid_of({600, 600, 600}), {Vec3(1, 1, 1)});
                 }),
-                HasSubstr("at most 6.71e+07 cells"));
+                HasSubstr("at most 3.36e+07 cells"));
 }
 
 // Expected equality of doubles: the same bits on any number of threads.
