@@ -1,7 +1,5 @@
 #include "randomfield/block_field.hpp"
 
-#include <limits>
-
 #include "core/random.hpp"
 
 namespace grainfield::randomfield {
@@ -10,12 +8,6 @@ namespace {
 FieldOptions checked(const FieldOptions& options) {
     options.validate();
     return options;
-}
-
-// The exact factor is LAS without a subdivision: a stage 0 as large as the grid.
-std::int64_t stage0_cells(const FieldOptions& options) {
-    if (options.method == Method::cholesky) return std::numeric_limits<std::int64_t>::max();
-    return options.stage0_cells.value_or(LasGenerator::default_stage0_cells);
 }
 
 }  // namespace
@@ -28,17 +20,18 @@ void BlockField::map(std::span<const double> column, std::span<const std::size_t
 
 FieldGenerator::FieldGenerator(const GridSpec& grid, const FieldOptions& options)
     : options_(checked(options)),
-      generator_(grid, options.correlation_length, stage0_cells(options)),
-      stiffness_(options.stiffness, generator_.gamma()) {}
+      generator_(make_generator(grid, {options.correlation_length, options.correlation},
+                                options.method, options.stage0_cells)),
+      stiffness_(options.stiffness, generator_->gamma()) {}
 
 BlockField FieldGenerator::draw(std::uint64_t realization) const {
     BlockField field;
     field.grid = grid();
-    std::vector<double> normals(generator_.normals());
+    std::vector<double> normals(generator_->normals());
     const auto gaussian = [&](core::Stream stream) {
         core::RandomStream(options_.seed, stream).normals(realization, 0, normals);
         std::vector<double> g(grid().size());
-        generator_.apply(normals, g);
+        generator_->apply(normals, g);
         return g;
     };
     const bool both = options_.variable == Variable::both;
@@ -63,7 +56,7 @@ BlockField FieldGenerator::draw(std::uint64_t realization) const {
 }
 
 double FieldGenerator::covariance_error() const {
-    return randomfield::covariance_error(generator_, options_.correlation_length).covariance;
+    return randomfield::covariance_error(*generator_).covariance;
 }
 
 }  // namespace grainfield::randomfield

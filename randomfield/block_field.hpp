@@ -2,13 +2,14 @@
 // The module's front door: random fields of soil properties on the grid of blocks.
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "randomfield/field_error.hpp"
 #include "randomfield/field_options.hpp"
+#include "randomfield/generator.hpp"
 #include "randomfield/grid.hpp"
-#include "randomfield/las_generator.hpp"
 #include "randomfield/marginals.hpp"
 
 namespace grainfield::randomfield {
@@ -38,11 +39,11 @@ class FieldGenerator {
     /// the same whether drawn alone or with the other.
     [[nodiscard]] BlockField draw(std::uint64_t realization) const;
 
-    [[nodiscard]] const GridSpec& grid() const { return generator_.grid(); }
+    [[nodiscard]] const GridSpec& grid() const { return generator_->grid(); }
     [[nodiscard]] const FieldOptions& options() const { return options_; }
-    [[nodiscard]] const LasGenerator& generator() const { return generator_; }
+    [[nodiscard]] const Generator& generator() const { return *generator_; }
     /// Variance of a cell's G: below 1, as cells are local averages [-].
-    [[nodiscard]] double gamma() const { return generator_.gamma(); }
+    [[nodiscard]] double gamma() const { return generator_->gamma(); }
     /// E[k_n of a cell] / field.stiffness.mean, see StiffnessTransform::mean_ratio() [-].
     [[nodiscard]] double stiffness_mean_ratio() const { return stiffness_.mean_ratio(); }
     /// Largest error of the generator's covariances in units of gamma, without sampling: round-off
@@ -51,7 +52,7 @@ class FieldGenerator {
 
   private:
     FieldOptions options_;
-    LasGenerator generator_;
+    std::shared_ptr<const Generator> generator_;
     StiffnessTransform stiffness_;
 };
 

@@ -30,7 +30,7 @@ std::vector<double> covariance_matrix(const GridSpec& grid, const LocalAverageCo
     return matrix;
 }
 
-LowerFactor factor_of(const GridSpec& grid, const Vec3& theta, double& gamma) {
+LowerFactor factor_of(const GridSpec& grid, const CorrelationModel& correlation) {
     if (grid.size() > LowerFactor::max_size) {
         throw InputError(fmt::format(
             "random field: the exact factor of {} x {} x {} = {} cells does not fit: at "
@@ -38,23 +38,23 @@ LowerFactor factor_of(const GridSpec& grid, const Vec3& theta, double& gamma) {
             "field.stage0_cells",
             grid.cells[0], grid.cells[1], grid.cells[2], grid.size(), LowerFactor::max_size));
     }
-    const LocalAverageCovariance of_lag(grid.cell_size, theta, grid.cells);
-    gamma = of_lag.gamma();
+    const LocalAverageCovariance of_lag(grid.cell_size, correlation, grid.cells);
     auto factor = LowerFactor::of(covariance_matrix(grid, of_lag), grid.size());
     if (!factor) {
+        const Vec3& theta = correlation.length;
         throw InputError(
             fmt::format("field.correlation_length = [{}, {}, {}] m: no field exists in double "
                         "precision for cells of {} x {} x {} m (variance of a cell {:.3g}); "
                         "allowed is 0.001 of a cell to 1e4 domains",
                         theta[0], theta[1], theta[2], grid.cell_size[0], grid.cell_size[1],
-                        grid.cell_size[2], gamma));
+                        grid.cell_size[2], of_lag.gamma()));
     }
     return *std::move(factor);
 }
 
 }  // namespace
 
-CholeskyGenerator::CholeskyGenerator(const GridSpec& grid, const Vec3& correlation_length)
-    : factor_(factor_of(grid, correlation_length, gamma_)) {}
+CholeskyGenerator::CholeskyGenerator(const GridSpec& grid, const CorrelationModel& correlation)
+    : Generator(grid, correlation), factor_(factor_of(grid, correlation)) {}
 
 }  // namespace grainfield::randomfield

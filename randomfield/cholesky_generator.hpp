@@ -3,28 +3,25 @@
 
 #include <span>
 
-#include "randomfield/grid.hpp"
+#include "randomfield/generator.hpp"
 #include "randomfield/lower_factor.hpp"
 
 namespace grainfield::randomfield {
 
-class CholeskyGenerator {
+class CholeskyGenerator final : public Generator {
   public:
-    /// Factors the covariance of the grid's cells for the correlation lengths theta [m], all > 0.
-    /// InputError for more cells than LowerFactor::max_size, or where no factor exists.
-    CholeskyGenerator(const GridSpec& grid, const Vec3& correlation_length);
+    /// Factors the covariance of the grid's cells. InputError for more cells than
+    /// LowerFactor::max_size, or where no factor exists.
+    CholeskyGenerator(const GridSpec& grid, const CorrelationModel& correlation);
 
     /// Number of standard normals a field takes: one a cell.
-    [[nodiscard]] std::size_t normals() const { return factor_.size(); }
-    /// Variance of one cell [-].
-    [[nodiscard]] double gamma() const { return gamma_; }
-    /// field = M normals, of normals() and of one number a cell. Safe from many threads.
-    void apply(std::span<const double> normals, std::span<double> field) const {
+    [[nodiscard]] std::size_t normals() const override { return factor_.size(); }
+    [[nodiscard]] bool exact() const override { return true; }
+    void apply(std::span<const double> normals, std::span<double> field) const override {
         factor_.multiply(normals, field);
     }
 
   private:
-    double gamma_ = 0.0;
     LowerFactor factor_;
 };
 

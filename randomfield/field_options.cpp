@@ -25,8 +25,6 @@ void FieldOptions::validate() const {
     require(positive(theta[0]) && positive(theta[1]) && positive(theta[2]),
             "field.correlation_length", fmt::format("[{}, {}, {}]", theta[0], theta[1], theta[2]),
             "each correlation length must be positive and finite (m)");
-    require(correlation == "markov", "field.correlation", fmt::format("\"{}\"", correlation),
-            "allowed is \"markov\"");
     require(!stage0_cells || *stage0_cells >= 1, "field.stage0_cells",
             fmt::format("{}", stage0_cells.value_or(1)), "must be at least 1");
 

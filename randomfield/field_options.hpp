@@ -4,14 +4,19 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <string>
 
 #include "kernels/vec3.hpp"
+#include "randomfield/correlation.hpp"
 
 namespace grainfield::randomfield {
 
 enum class Variable { none, friction, stiffness, both };
-enum class Method { las, cholesky };
+enum class Method {
+    las,          ///< local average subdivision with correlated detail
+    las_classic,  ///< local average subdivision as published
+    cholesky,     ///< exact, dense factor
+    circulant     ///< exact, FFT on a periodic grid around
+};
 
 /// Bounded marginal of the friction angle, Eq. (7).
 struct FrictionMarginal {
@@ -30,7 +35,7 @@ struct StiffnessMarginal {
 struct FieldOptions {
     Variable variable = Variable::none;
     Method method = Method::las;
-    std::string correlation = "markov";        ///< Eq. (10), the only one so far
+    Correlation correlation = Correlation::markov;
     std::uint64_t seed = 1;                    ///< [-]
     Vec3 correlation_length{10.0, 1.0, 10.0};  ///< theta_x, theta_y, theta_z [m]
     std::optional<std::int64_t> stage0_cells;  ///< largest stage 0 of LAS [-]

@@ -11,13 +11,14 @@
 namespace grainfield::randomfield {
 namespace {
 
-LowerFactor factor(std::vector<double> matrix, std::size_t size, double scale, const Vec3& theta) {
+LowerFactor factor(std::vector<double> matrix, std::size_t size, double scale,
+                   const CorrelationModel& correlation) {
     auto result = LowerFactor::of(std::move(matrix), size, scale);
     if (!result) {
         throw InputError(
             fmt::format("field.correlation_length = [{}, {}, {}] m: the subdivision of this grid "
                         "cannot be computed in double precision; use field.method = \"cholesky\"",
-                        theta[0], theta[1], theta[2]));
+                        correlation.length[0], correlation.length[1], correlation.length[2]));
     }
     return *std::move(result);
 }
@@ -25,9 +26,10 @@ LowerFactor factor(std::vector<double> matrix, std::size_t size, double scale, c
 // Covariances of children and parents, all from the children's: a parent is the mean of its own.
 class FamilyCovariance {
   public:
-    FamilyCovariance(const Vec3& child_size, const CellCount& split, const Vec3& theta)
+    FamilyCovariance(const Vec3& child_size, const CellCount& split,
+                     const CorrelationModel& correlation)
         // Parents at most 2 apart: their children at most 3 split - 1 cells apart.
-        : of_lag_(child_size, theta, {3 * split[0], 3 * split[1], 3 * split[2]}) {
+        : of_lag_(child_size, correlation, {3 * split[0], 3 * split[1], 3 * split[2]}) {
         for (std::int32_t k = 0; k < split[2]; ++k) {
             for (std::int32_t j = 0; j < split[1]; ++j) {
                 for (std::int32_t i = 0; i < split[0]; ++i) children_.push_back({i, j, k});
@@ -75,8 +77,8 @@ std::vector<CellCount> neighbour_offsets(const Neighbourhood& around) {
     return offsets;
 }
 
-SubdivisionStencil stencil_of(const FamilyCovariance& covariance, const Vec3& theta,
-                              const Neighbourhood& around) {
+SubdivisionStencil stencil_of(const FamilyCovariance& covariance,
+                              const CorrelationModel& correlation, const Neighbourhood& around) {
     SubdivisionStencil stencil;
     stencil.children = covariance.children();
     stencil.neighbours = neighbour_offsets(around);
@@ -92,7 +94,7 @@ SubdivisionStencil stencil_of(const FamilyCovariance& covariance, const Vec3& th
             parents[a + b * np] = covariance.parent_parent({q[0] - p[0], q[1] - p[1], q[2] - p[2]});
         }
     }
-    const LowerFactor l = factor(std::move(parents), np, covariance.gamma(), theta);
+    const LowerFactor l = factor(std::move(parents), np, covariance.gamma(), correlation);
 
     // Best linear estimate of child c: weights R^-1 s_c, s_c = its covariance with the parents.
     std::vector<std::vector<double>> half(nc);  // w_c = L^-1 s_c
@@ -118,7 +120,7 @@ SubdivisionStencil stencil_of(const FamilyCovariance& covariance, const Vec3& th
             rest[c + d * nc] = sum;
         }
     }
-    const LowerFactor noise = factor(std::move(rest), nc, covariance.gamma(), theta);
+    const LowerFactor noise = factor(std::move(rest), nc, covariance.gamma(), correlation);
     for (std::size_t n = 0; n < nc; ++n) {
         for (std::size_t c = n; c < nc; ++c) stencil.noise[n][c] = noise(c, n);
     }
@@ -128,10 +130,9 @@ SubdivisionStencil stencil_of(const FamilyCovariance& covariance, const Vec3& th
 }  // namespace
 
 SubdivisionStencil subdivision_stencil(const Vec3& child_size, const CellCount& split,
-                                       const Vec3& correlation_length,
+                                       const CorrelationModel& correlation,
                                        const Neighbourhood& neighbourhood) {
-    return stencil_of(FamilyCovariance(child_size, split, correlation_length), correlation_length,
-                      neighbourhood);
+    return stencil_of(FamilyCovariance(child_size, split, correlation), correlation, neighbourhood);
 }
 
 Neighbourhood neighbourhood_of(const CellCount& parent, const CellCount& parents) {
@@ -145,9 +146,9 @@ Neighbourhood neighbourhood_of(const CellCount& parent, const CellCount& parents
 
 std::array<SubdivisionStencil, 64> subdivision_stencils(const Vec3& child_size,
                                                         const CellCount& split,
-                                                        const Vec3& correlation_length,
+                                                        const CorrelationModel& correlation,
                                                         const CellCount& parents) {
-    const FamilyCovariance covariance(child_size, split, correlation_length);
+    const FamilyCovariance covariance(child_size, split, correlation);
     std::array<SubdivisionStencil, 64> stencils;
     // First, second (if any) and last cell of each direction see every neighbourhood there is.
     const auto next = [](std::int32_t i, std::int32_t n) {
@@ -157,7 +158,7 @@ std::array<SubdivisionStencil, 64> subdivision_stencils(const Vec3& child_size,
         for (std::int32_t j = 0; j < parents[1]; j = next(j, parents[1])) {
             for (std::int32_t i = 0; i < parents[0]; i = next(i, parents[0])) {
                 const Neighbourhood around = neighbourhood_of({i, j, k}, parents);
-                stencils[around.id()] = stencil_of(covariance, correlation_length, around);
+                stencils[around.id()] = stencil_of(covariance, correlation, around);
             }
         }
     }

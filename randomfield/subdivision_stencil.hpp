@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernels/vec3.hpp"
+#include "randomfield/correlation.hpp"
 #include "randomfield/grid.hpp"
 
 namespace grainfield::randomfield {
@@ -39,14 +40,14 @@ struct SubdivisionStencil {
 /// split[d] is 2 where the direction is halved and 1 where it is not. InputError where the
 /// covariances cannot be factored.
 SubdivisionStencil subdivision_stencil(const Vec3& child_size, const CellCount& split,
-                                       const Vec3& correlation_length,
+                                       const CorrelationModel& correlation,
                                        const Neighbourhood& neighbourhood);
 
 /// All stencils of a stage with `parents` cells, by Neighbourhood::id(); empty where that
 /// neighbourhood does not occur.
 std::array<SubdivisionStencil, 64> subdivision_stencils(const Vec3& child_size,
                                                         const CellCount& split,
-                                                        const Vec3& correlation_length,
+                                                        const CorrelationModel& correlation,
                                                         const CellCount& parents);
 
 /// The neighbourhood of one parent in a grid of parents.

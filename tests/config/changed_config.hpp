@@ -34,7 +34,7 @@ poisson_ratio = 0.3
 variable = "both"
 method = "cholesky"
 seed = 8
-correlation = "markov"   # the only one so far
+correlation = "matern32"
 correlation_length = [5, 0.5, 6.0]
 stage0_cells = 512
 friction = { minimum = 0.2, maximum = 0.8, s = 3 }
@@ -69,6 +69,7 @@ inline Config changed_config() {
     c.wall = {0.01, 0.3};
     c.field.variable = randomfield::Variable::both;
     c.field.method = randomfield::Method::cholesky;
+    c.field.correlation = randomfield::Correlation::matern32;
     c.field.seed = 8;
     c.field.correlation_length = {5, 0.5, 6};
     c.field.stage0_cells = 512;

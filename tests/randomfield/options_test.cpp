@@ -31,7 +31,6 @@ TEST(FieldOptions, MessagesNameKeyAndValue) {
         {[](auto& o) { o.correlation_length[2] = inf; }, "field.correlation_length", "inf"},
         {[](auto& o) { o.correlation_length[2] = std::nan(""); }, "field.correlation_length",
          "nan"},
-        {[](auto& o) { o.correlation = "gauss"; }, "field.correlation", "\"gauss\""},
         {[](auto& o) { o.stage0_cells = 0; }, "field.stage0_cells", "0"},
         {[](auto& o) { o.friction.minimum = -0.1; }, "field.friction.minimum", "-0.1"},
         {[](auto& o) { o.friction.maximum = 0.3; }, "field.friction.maximum", "0.3"},

@@ -11,7 +11,6 @@ constexpr Range porosity_range{0.2, 0.9, false, false, "in (0.2, 0.9)"};
 constexpr Range ratio{0, 1, true, true, "in [0, 1]"};
 constexpr Range strain_range{0, 0.5, false, true, "in (0, 0.5]"};
 constexpr Range share{0, 1, false, false, "in (0, 1)"};
-constexpr std::array<std::string_view, 1> correlations{"markov"};
 
 void add_keys(Keys& keys, packing::Grading& grading) {
     auto& [sieve_diameter, passing] = grading;
@@ -44,8 +43,11 @@ void add_keys(Keys& keys, randomfield::FieldOptions& field) {
     auto& [mean, cov, preserve_mean] = stiffness;
     keys.push_back({"field.variable", slot(variable, variable_names),
                     "\"none\", \"friction\", \"stiffness\", \"both\""});
-    keys.push_back({"field.method", slot(method, method_names), "\"las\", \"cholesky\""});
-    keys.push_back({"field.correlation", slot(correlation, correlations), "\"markov\""});
+    keys.push_back({"field.method", slot(method, method_names),
+                    "\"las\", \"las-classic\", \"cholesky\", \"circulant\""});
+    keys.push_back({"field.correlation", slot(correlation, correlation_names),
+                    "\"markov\", \"separable-markov\", \"gaussian\", \"spherical\", \"matern32\", "
+                    "\"matern52\""});
     keys.push_back({"field.seed", slot(seed, 0), "of the field's normals"});
     keys.push_back(
         {"field.correlation_length", slot(correlation_length, positive), "m: theta x, y, z"});

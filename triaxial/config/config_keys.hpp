@@ -26,7 +26,16 @@ inline constexpr std::array variable_names{
     Named<randomfield::Variable>{randomfield::Variable::both, "both"}};
 inline constexpr std::array method_names{
     Named<randomfield::Method>{randomfield::Method::las, "las"},
-    Named<randomfield::Method>{randomfield::Method::cholesky, "cholesky"}};
+    Named<randomfield::Method>{randomfield::Method::las_classic, "las-classic"},
+    Named<randomfield::Method>{randomfield::Method::cholesky, "cholesky"},
+    Named<randomfield::Method>{randomfield::Method::circulant, "circulant"}};
+inline constexpr std::array correlation_names{
+    Named<randomfield::Correlation>{randomfield::Correlation::markov, "markov"},
+    Named<randomfield::Correlation>{randomfield::Correlation::separable_markov, "separable-markov"},
+    Named<randomfield::Correlation>{randomfield::Correlation::gaussian, "gaussian"},
+    Named<randomfield::Correlation>{randomfield::Correlation::spherical, "spherical"},
+    Named<randomfield::Correlation>{randomfield::Correlation::matern32, "matern32"},
+    Named<randomfield::Correlation>{randomfield::Correlation::matern52, "matern52"}};
 
 /// All keys in the order of interface.md. They refer to `config`, which must outlive them.
 Keys config_keys(Config& config);

@@ -1,0 +1,72 @@
+// Sums of rows: the same bits as plain loops, whatever vectors this machine has.
+
+#include "kernels/vector/row_sums.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace grainfield::kernels {
+namespace {
+
+std::vector<double> some_numbers(std::size_t count, double phase) {
+    std::vector<double> x(count);
+    for (std::size_t i = 0; i < count; ++i) x[i] = std::sin(phase + 1.7 * static_cast<double>(i));
+    return x;
+}
+
+// No tolerance: products and sums are rounded apart, in the same order.
+TEST(RowSums, AreThePlainSumsToTheLastBit) {
+    const std::vector<double> a = some_numbers(400, 0.1), b = some_numbers(400, 0.7);
+    const std::vector<double> first = some_numbers(100, 0.4);
+    const std::vector<RowTerm> of_a{{3, 0.3}, {120, -1.1}, {7, 0.01}}, of_b{{0, 2.0}, {250, 1e-9}};
+    for (std::size_t count = 0; count < 70; ++count) {
+        std::vector<double> out(count + 8, 42.0);
+        sum_rows(count, 0.9, first.data(), a.data(), of_a, b.data(), of_b, out.data());
+        for (std::size_t t = 0; t < count; ++t) {
+            double sum = 0.9 * first[t];
+            for (const RowTerm& term : of_a) {
+                sum += term.weight * a[t + static_cast<std::size_t>(term.offset)];
+            }
+            for (const RowTerm& term : of_b) {
+                sum += term.weight * b[t + static_cast<std::size_t>(term.offset)];
+            }
+            EXPECT_EQ(out[t], sum) << count << " " << t;
+        }
+        for (std::size_t t = count; t < out.size(); ++t) EXPECT_EQ(out[t], 42.0);
+    }
+}
+
+TEST(RowSums, LowerProductsAreThePlainOnesToTheLastBit) {
+    for (std::size_t n = 1; n < 40; ++n) {
+        const std::vector<double> l = some_numbers(n * n, 0.2), x = some_numbers(n, 0.5);
+        std::vector<double> product(n, std::nan(""));
+        multiply_lower(n, l.data(), x.data(), product.data());
+        for (std::size_t i = 0; i < n; ++i) {
+            double sum = 0.0;
+            for (std::size_t j = 0; j <= i; ++j) sum += l[i + j * n] * x[j];
+            EXPECT_EQ(product[i], sum) << n << " " << i;
+        }
+    }
+}
+
+TEST(RowSums, SubtractedProductsAreThePlainOnesToTheLastBit) {
+    constexpr std::size_t n = 80, terms = 37;
+    const std::vector<double> a = some_numbers(n * terms, 0.3);
+    for (std::size_t columns = 1; columns <= product_tile; ++columns) {
+        std::vector<double> tile = some_numbers(product_tile * product_tile, 0.6);
+        std::vector<double> plain = tile;
+        subtract_products(n, terms, a.data() + 40, a.data() + 2, columns, tile.data());
+        for (std::size_t c = 0; c < columns; ++c) {
+            for (std::size_t r = 0; r < product_tile; ++r) {
+                double& sum = plain[r + c * product_tile];
+                for (std::size_t k = 0; k < terms; ++k) sum -= a[40 + r + k * n] * a[2 + c + k * n];
+            }
+        }
+        EXPECT_EQ(tile, plain) << columns;
+    }
+}
+
+}  // namespace
+}  // namespace grainfield::kernels
