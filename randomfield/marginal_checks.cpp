@@ -12,9 +12,6 @@
 namespace grainfield::randomfield {
 namespace {
 
-/// Unbounded distributions must hold physical values up to this many standard deviations.
-constexpr double most_deviations = 6.0;
-
 class Check {
   public:
     Check(const MarginalOptions& options, Property property, std::string key)

@@ -56,6 +56,9 @@ class Marginal {
     double factor_ = 1.0;  ///< other than 1 under preserve_mean only [-]
 };
 
+/// Distributions must hold values that the property can have up to so many standard deviations.
+inline constexpr double most_deviations = 6.0;
+
 /// InputError where the options make no distribution, or one that the property cannot have:
 /// friction angles below 0 or from pi/2 on, stiffnesses not above 0. Bounded distributions must
 /// stay inside, others up to six standard deviations, beyond which a point lies with a probability

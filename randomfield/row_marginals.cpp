@@ -57,6 +57,16 @@ RowMarginals::RowMarginals(const MarginalOptions& options, Property property, co
     validate(options, property, std::string(limits_of(property).key), grid);
     for (std::int32_t j = 0; j < rows_of(options, grid); ++j)
         rows_.emplace_back(of_row(options, grid, j), gamma);
+    if (!options.preserve_mean) return;
+    // The factor is known only now.
+    const PropertyLimits limits = limits_of(property);
+    for (const Marginal& row : rows_)
+        for (const double g : {-most_deviations, most_deviations})
+            if (!limits.contains(row(g)))
+                throw InputError(fmt::format(
+                    "{}.preserve_mean = true: scaled to a point's mean, values reach {:.4g} {}, "
+                    "allowed is {}",
+                    limits.key, row(g), limits.unit, limits.text));
 }
 
 std::vector<double> RowMarginals::values(std::span<const double> g) const {

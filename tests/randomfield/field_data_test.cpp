@@ -159,6 +159,19 @@ TEST_F(FieldData, FieldsHonourExactValuesOfEveryMarginal) {
     }
 }
 
+// A subdivided field has an approximate covariance, but its known values are as exact.
+TEST_F(FieldData, SubdividedFieldsHonourExactValuesToo) {
+    FieldOptions fine =
+        options("x,y,z,value,error\n0.4,0.4,0.4,0.71,0\n0.4,0.6,0.4,0.4,0\n", Variable::friction);
+    fine.method = Method::las_classic;
+    fine.stage0_cells = 54;
+    const FieldGenerator generator({{12, 24, 12}, Vec3(0.125, 0.125, 0.125)}, fine);
+    ASSERT_EQ(generator.generator().subdivisions(), 2u);
+    const BlockField field = generator.draw(1);
+    EXPECT_NEAR(field.friction_angle[field.grid.index(3, 3, 3)], 0.71, 1e-12);
+    EXPECT_NEAR(field.friction_angle[field.grid.index(3, 4, 3)], 0.4, 1e-12);
+}
+
 // The random numbers behind a field are those it has without data.
 TEST_F(FieldData, ConditioningIsAppliedToTheUnconditionalField) {
     const FieldOptions with = options(std::string(full) +

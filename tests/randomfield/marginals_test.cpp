@@ -251,6 +251,17 @@ TEST(RowMarginals, FollowATrendWithHeight) {
     }
 }
 
+TEST(RowMarginals, RefuseAPreservedMeanThatLeadsTooFar) {
+    // Skewed to the right: the factor is above 1, and the maximum near to pi/2.
+    MarginalOptions beta{MarginalKind::beta, 0.1, 1.55, 2.0, 0.3, 0.6};
+    beta.preserve_mean = true;
+    EXPECT_NE(input_error([&] {
+                  RowMarginals(beta, Property::friction_angle, GridSpec{}, 0.05);
+              }).find("field.friction.preserve_mean = true: scaled to a point's mean"),
+              std::string::npos);
+    EXPECT_NO_THROW(RowMarginals(beta, Property::normal_stiffness, GridSpec{}, 0.05));
+}
+
 // What validation leaves a probability of 1e-9 to is refused where it happens.
 TEST(RowMarginals, RefuseValuesThatThePropertyCannotHave) {
     const MarginalOptions normal{MarginalKind::normal, {}, {}, 2.0, 0.6, 0.15};

@@ -70,6 +70,16 @@ TEST(Verification, FindsTheErrorOfSubdivision) {
     EXPECT_EQ(result.fields.front().variance.outside, 0u);  // exact after one split
 }
 
+// After several splits the variances are off too, and so is what is distributed by them.
+TEST(Verification, FindsWrongVariances) {
+    FieldOptions options = paper(Variable::friction, 0.1);
+    options.method = Method::las_classic;
+    options.stage0_cells = 1;
+    const Verification result = verify(FieldGenerator(GridSpec{}, options), 2000);
+    EXPECT_GT(result.covariance_error->variance, 0.05);
+    EXPECT_GT(result.fields.front().variance.outside, 10u);
+}
+
 // Of 100 checks that are held to be wrong 1 % of the time each, 9 and more are so once in 1e6.
 TEST(Verification, RaisesFewFalseAlarms) {
     std::size_t correlation = 0, variance = 0, histogram = 0;
