@@ -1,6 +1,10 @@
 #include "core/random.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "core/normal_quantile.hpp"
+#include "core/vector_normals.hpp"
 
 // Random123 is C89-style code from the system; its warnings are not ours.
 #pragma GCC diagnostic push
@@ -11,6 +15,9 @@
 #pragma GCC diagnostic pop
 
 namespace grainfield::core {
+
+using namespace as241;
+
 namespace {
 
 std::uint32_t low(std::uint64_t x) {
@@ -33,44 +40,6 @@ double polynomial(const double (&c)[8], double x) {
     return sum;
 }
 
-// Coefficients as published in AS 241: a/b for |p - 0.5| <= 0.425, c/d and e/f for the tails.
-constexpr double kA[8] = {3.3871328727963666080e0,  1.3314166789178437745e+2,
-                          1.9715909503065514427e+3, 1.3731693765509461125e+4,
-                          4.5921953931549871457e+4, 6.7265770927008700853e+4,
-                          3.3430575583588128105e+4, 2.5090809287301226727e+3};
-constexpr double kB[8] = {1.0,
-                          4.2313330701600911252e+1,
-                          6.8718700749205790830e+2,
-                          5.3941960214247511077e+3,
-                          2.1213794301586595867e+4,
-                          3.9307895800092710610e+4,
-                          2.8729085735721942674e+4,
-                          5.2264952788528545610e+3};
-constexpr double kC[8] = {1.42343711074968357734e0,  4.63033784615654529590e0,
-                          5.76949722146069140550e0,  3.64784832476320460504e0,
-                          1.27045825245236838258e0,  2.41780725177450611770e-1,
-                          2.27238449892691845833e-2, 7.74545014278341407640e-4};
-constexpr double kD[8] = {1.0,
-                          2.05319162663775882187e0,
-                          1.67638483018380384940e0,
-                          6.89767334985100004550e-1,
-                          1.48103976427480074590e-1,
-                          1.51986665636164571966e-2,
-                          5.47593808499534494600e-4,
-                          1.05075007164441684324e-9};
-constexpr double kE[8] = {6.65790464350110377720e0,  5.46378491116411436990e0,
-                          1.78482653991729133580e0,  2.96560571828504891230e-1,
-                          2.65321895265761230930e-2, 1.24266094738807843860e-3,
-                          2.71155556874348757815e-5, 2.01033439929228813265e-7};
-constexpr double kF[8] = {1.0,
-                          5.99832206555887937690e-1,
-                          1.36929880922735805310e-1,
-                          1.48753612908506148525e-2,
-                          7.86869131145613259100e-4,
-                          1.84631831751005468180e-5,
-                          1.42151175831644588870e-7,
-                          2.04426310338993978564e-15};
-
 }  // namespace
 
 std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
@@ -83,14 +52,14 @@ std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
 
 double normal_quantile(double p) noexcept {
     const double q = p - 0.5;
-    if (std::abs(q) <= 0.425) {
-        const double r = 0.180625 - q * q;
+    if (std::abs(q) <= kCentre) {
+        const double r = kCentre2 - q * q;
         return q * polynomial(kA, r) / polynomial(kB, r);
     }
     // 1 - p is exact for p in (0.5, 1): the tails are as accurate on the right as on the left.
     const double r = std::sqrt(-std::log(q < 0.0 ? p : 1.0 - p));
-    const double x = r <= 5.0 ? polynomial(kC, r - 1.6) / polynomial(kD, r - 1.6)
-                              : polynomial(kE, r - 5.0) / polynomial(kF, r - 5.0);
+    const double x = r <= kTail ? polynomial(kC, r - kTailShift) / polynomial(kD, r - kTailShift)
+                                : polynomial(kE, r - kTail) / polynomial(kF, r - kTail);
     return q < 0.0 ? -x : x;
 }
 
@@ -121,7 +90,15 @@ double RandomStream::normal(std::uint64_t realization, std::uint64_t index) cons
 
 void RandomStream::normals(std::uint64_t realization, std::uint64_t first,
                            std::span<double> values) const noexcept {
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = normal(realization, first + i);
+    // Blocks that are worth a thread; each number is its own, whoever computes it.
+    constexpr std::size_t block = 16384;
+    const auto blocks = static_cast<std::ptrdiff_t>((values.size() + block - 1) / block);
+#pragma omp parallel for schedule(static) if (blocks > 2)
+    for (std::ptrdiff_t b = 0; b < blocks; ++b) {
+        const std::size_t at = static_cast<std::size_t>(b) * block;
+        vector_normals(key_, realization, first + at,
+                       values.subspan(at, std::min(block, values.size() - at)));
+    }
 }
 
 }  // namespace grainfield::core

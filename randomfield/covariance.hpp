@@ -1,5 +1,5 @@
 #pragma once
-// Exact covariance between local averages of the Markov field over equal cells, Eq. (10).
+// Exact covariance between local averages of a unit-variance field over equal cells.
 
 #include <array>
 #include <cstdint>
@@ -10,14 +10,10 @@
 
 namespace grainfield::randomfield {
 
-/// Average of exp(-u^2 tau^2), tau the distance of a point of one unit interval from a point of
-/// another, `lag` further on:
-///   F_k(u) = integral over v in [-1, 1] of (1 - |v|) exp(-u^2 (k + v)^2), u >= 0, k = |lag|.
-/// Good to 1e-14 relative where it is not negligible (public for its tests) [-].
-double gaussian_cell_average(double u, std::int32_t lag);
-
-/// Covariance of the averages of a unit-variance field over two cells of one grid, by their
-/// distance in cells. Tabulated once for all lags below `lags` in each direction.
+/// Covariance of the averages over two cells of one grid, by their distance in cells, tabulated
+/// once for all lags below `lags` in each direction. Relative error at most 1e-12 (tested against
+/// independent integrations) for any aspect of the cells, theta of 1e-3 cells to 1e4 domains, as
+/// far as the numbers are normal ones (above 1e-300).
 class LocalAverageCovariance {
   public:
     /// cell_size in metres, all > 0.
@@ -32,7 +28,7 @@ class LocalAverageCovariance {
 
   private:
     std::array<std::int32_t, 3> lags_;
-    std::vector<double> table_;
+    std::vector<double> table_;  ///< x fastest
 };
 
 }  // namespace grainfield::randomfield

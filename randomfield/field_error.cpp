@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/errors.hpp"
@@ -10,19 +12,25 @@
 namespace grainfield::randomfield {
 namespace {
 
-void check_size(const GridSpec& grid) {
-    if (grid.size() > max_error_cells) {
+void check_size(const GridSpec& grid, std::size_t most) {
+    if (grid.size() > most) {
         throw InputError(
-            fmt::format("random field: the covariance error of {} cells is not computed: at most "
-                        "{} cells are allowed",
-                        grid.size(), max_error_cells));
+            fmt::format("random field: the covariance matrix of {} x {} x {} = {} cells is not "
+                        "computed: at most {} cells are allowed",
+                        grid.cells[0], grid.cells[1], grid.cells[2], grid.size(), most));
     }
+}
+
+CellCount cell_at(const GridSpec& grid, Eigen::Index index) {
+    const auto i = static_cast<std::int32_t>(index);
+    return {i % grid.cells[0], i / grid.cells[0] % grid.cells[1],
+            i / grid.cells[0] / grid.cells[1]};
 }
 
 }  // namespace
 
 Eigen::MatrixXd linear_map(const Generator& generator) {
-    check_size(generator.grid());
+    check_size(generator.grid(), max_slow_error_cells);
     const auto cells = static_cast<Eigen::Index>(generator.grid().size());
     const auto normals = static_cast<Eigen::Index>(generator.normals());
     Eigen::MatrixXd map(cells, normals);
@@ -36,19 +44,14 @@ Eigen::MatrixXd linear_map(const Generator& generator) {
 }
 
 Eigen::MatrixXd exact_covariance(const GridSpec& grid, const CorrelationModel& correlation) {
-    check_size(grid);
+    check_size(grid, max_error_cells);
     const LocalAverageCovariance of_lag(grid.cell_size, correlation, grid.cells);
-    const auto [nx, ny, nz] = grid.cells;
     const auto n = static_cast<Eigen::Index>(grid.size());
-    const auto cell = [nx = nx, ny = ny](Eigen::Index index) {
-        const auto i = static_cast<std::int32_t>(index);
-        return CellCount{i % nx, i / nx % ny, i / nx / ny};
-    };
     Eigen::MatrixXd covariance(n, n);
     for (Eigen::Index b = 0; b < n; ++b) {
-        const CellCount q = cell(b);
+        const CellCount q = cell_at(grid, b);
         for (Eigen::Index a = 0; a < n; ++a) {
-            const CellCount p = cell(a);
+            const CellCount p = cell_at(grid, a);
             covariance(a, b) = of_lag(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
         }
     }
@@ -56,11 +59,33 @@ Eigen::MatrixXd exact_covariance(const GridSpec& grid, const CorrelationModel& c
 }
 
 CovarianceError covariance_error(const Generator& generator) {
+    const GridSpec& grid = generator.grid();
     const Eigen::MatrixXd map = linear_map(generator);
-    const Eigen::MatrixXd error =
-        map * map.transpose() - exact_covariance(generator.grid(), generator.correlation());
-    return {error.cwiseAbs().maxCoeff() / generator.gamma(),
-            error.diagonal().cwiseAbs().maxCoeff() / generator.gamma()};
+    const LocalAverageCovariance of_lag(grid.cell_size, generator.correlation(), grid.cells);
+    const Eigen::Index n = map.rows();
+    constexpr Eigen::Index block = 256;
+    CovarianceError error;
+    error.variances.resize(grid.size());
+    Eigen::MatrixXd product;
+    for (Eigen::Index first = 0; first < n; first += block) {
+        const Eigen::Index rows = std::min(block, n - first);
+        // Symmetric: the columns up to the block's last row do.
+        product.noalias() = map.topRows(first + rows) * map.middleRows(first, rows).transpose();
+        for (Eigen::Index b = 0; b < rows; ++b) {
+            const CellCount q = cell_at(grid, first + b);
+            for (Eigen::Index a = 0; a <= first + b; ++a) {
+                const CellCount p = cell_at(grid, a);
+                const double exact = of_lag(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+                error.covariance = std::max(error.covariance, std::abs(product(a, b) - exact));
+            }
+            const double variance = product(first + b, b);
+            error.variance = std::max(error.variance, std::abs(variance - generator.gamma()));
+            error.variances[static_cast<std::size_t>(first + b)] = variance / generator.gamma();
+        }
+    }
+    error.covariance /= generator.gamma();
+    error.variance /= generator.gamma();
+    return error;
 }
 
 }  // namespace grainfield::randomfield

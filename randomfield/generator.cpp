@@ -2,7 +2,9 @@
 
 #include "core/errors.hpp"
 #include "randomfield/cholesky_generator.hpp"
+#include "randomfield/circulant_generator.hpp"
 #include "randomfield/covariance.hpp"
+#include "randomfield/las_classic_generator.hpp"
 #include "randomfield/las_generator.hpp"
 
 namespace grainfield::randomfield {
@@ -25,12 +27,13 @@ std::unique_ptr<const Generator> make_generator(const GridSpec& grid,
     const std::int64_t stage0 = stage0_cells.value_or(LasGenerator::default_stage0_cells);
     switch (method) {
         case Method::las:
-        case Method::las_classic:
             return std::make_unique<LasGenerator>(grid, correlation, stage0);
+        case Method::las_classic:
+            return std::make_unique<LasClassicGenerator>(grid, correlation, stage0);
         case Method::cholesky:
             return std::make_unique<CholeskyGenerator>(grid, correlation);
         case Method::circulant:
-            throw InputError("field.method = \"circulant\": not there yet");
+            return std::make_unique<CirculantGenerator>(grid, correlation);
     }
     throw InputError("field.method: unknown");
 }

@@ -3,100 +3,152 @@
 #include <algorithm>
 #include <utility>
 
+#include "randomfield/memory_limit.hpp"
+
 namespace grainfield::randomfield {
-namespace {
 
-// The grid whose cells are 2 x 2 x 2 of this one's; a direction of one cell stays as it is.
-GridSpec coarser(const GridSpec& fine) {
-    GridSpec coarse = fine;
-    for (std::size_t d = 0; d < 3; ++d) {
-        if (fine.cells[d] == 1) continue;
-        coarse.cells[d] = (fine.cells[d] + 1) / 2;
-        coarse.cell_size[static_cast<Eigen::Index>(d)] *= 2.0;
+// The grids of all stages, stage 0 first, and the axis along which each is halved. Axes as in the
+// stages: the first one is contiguous in memory.
+struct LasGenerator::Plan {
+    std::vector<GridSpec> grids;
+    std::vector<std::size_t> halved;
+    std::array<std::size_t, 3> axis{0, 1, 2};
+    CorrelationModel correlation;
+
+    Plan(const GridSpec& grid, const CorrelationModel& model, std::int64_t stage0_cells)
+        : correlation(model) {
+        grid.validate();
+        model.validate();
+        require_memory(grid, 3.0 * static_cast<double>(grid.size()) * sizeof(double), "las");
+        grids.push_back(grid);
+        while (static_cast<std::int64_t>(grids.back().size()) >
+               std::max<std::int64_t>(1, stage0_cells)) {
+            GridSpec coarse = grids.back();
+            std::size_t along = 0;  // the longest correlation, counted in cells
+            double longest = -1.0;
+            for (std::size_t d = 0; d < 3; ++d) {
+                const auto a = static_cast<Eigen::Index>(d);
+                const double cells = model.length[a] / coarse.cell_size[a];
+                if (coarse.cells[d] == 1 || cells <= longest) continue;
+                longest = cells;
+                along = d;
+            }
+            coarse.cells[along] = (coarse.cells[along] + 1) / 2;
+            coarse.cell_size[static_cast<Eigen::Index>(along)] *= 2.0;
+            grids.push_back(coarse);
+            halved.push_back(along);
+        }
+        std::reverse(grids.begin(), grids.end());
+        std::reverse(halved.begin(), halved.end());
+        if (!halved.empty()) reorder_axes();
     }
-    return coarse;
-}
 
-// The grids of all stages, stage 0 first.
-std::vector<GridSpec> grids_of_stages(const GridSpec& grid, std::int64_t stage0_cells) {
-    std::vector<GridSpec> grids{grid};
-    while (static_cast<std::int64_t>(grids.back().size()) >
-           std::max<std::int64_t>(1, stage0_cells)) {
-        grids.push_back(coarser(grids.back()));
+  private:
+    // Rows along the axis that is longest from the start: long vectors in all stages.
+    void reorder_axes() {
+        const CellCount first = grids.front().cells;
+        const auto longest =
+            static_cast<std::size_t>(std::max_element(first.begin(), first.end()) - first.begin());
+        std::swap(axis[0], axis[longest]);
+        for (GridSpec& grid : grids) {
+            std::swap(grid.cells[0], grid.cells[longest]);
+            std::swap(grid.cell_size[0], grid.cell_size[static_cast<Eigen::Index>(longest)]);
+        }
+        std::swap(correlation.length[0], correlation.length[static_cast<Eigen::Index>(longest)]);
+        for (std::size_t& along : halved) {
+            along = along == 0 ? longest : along == longest ? 0 : along;
+        }
     }
-    std::reverse(grids.begin(), grids.end());
-    return grids;
-}
-
-}  // namespace
+};
 
 LasGenerator::LasGenerator(const GridSpec& grid, const CorrelationModel& correlation,
                            std::int64_t stage0_cells)
+    : LasGenerator(grid, correlation, Plan(grid, correlation, stage0_cells)) {}
+
+LasGenerator::LasGenerator(const GridSpec& grid, const CorrelationModel& correlation,
+                           const Plan& plan)
     : Generator(grid, correlation),
-      stage0_(grids_of_stages(grid, stage0_cells).front(), correlation) {
-    normals_ = stage0_.normals();
-    const std::vector<GridSpec> grids = grids_of_stages(grid, stage0_cells);
-    for (std::size_t s = 1; s < grids.size(); ++s) {
-        Stage stage;
-        stage.parents = grids[s - 1].cells;
-        stage.children = grids[s].cells;
-        stage.children_each = 1;
-        for (std::size_t d = 0; d < 3; ++d) {
-            stage.split[d] = stage.children[d] > 1 ? 2 : 1;
-            stage.children_each *= static_cast<std::size_t>(stage.split[d]);
-        }
-        stage.stencils =
-            subdivision_stencils(grids[s].cell_size, stage.split, correlation, stage.parents);
-        normals_ += grids[s - 1].size() * (stage.children_each - 1);
-        stages_.push_back(std::move(stage));
+      axis_(plan.axis),
+      stage0_(plan.grids.front(), plan.correlation),
+      normals_(stage0_.normals()) {
+    for (std::size_t s = 0; s < plan.halved.size(); ++s) {
+        stages_.emplace_back(plan.grids[s], plan.grids[s + 1].cells, plan.halved[s],
+                             plan.correlation);
+        normals_ += stages_.back().size();
     }
 }
 
-const CellCount& LasGenerator::stage_cells(std::size_t stage) const {
-    return stage == stages_.size() ? grid().cells : stages_.at(stage).parents;
+CellCount LasGenerator::stage_cells(std::size_t stage) const {
+    if (stages_.empty()) return grid().cells;
+    const CellCount& cells =
+        stage == stages_.size() ? stages_.back().children() : stages_.at(stage).parents();
+    CellCount of_field{};
+    for (std::size_t d = 0; d < 3; ++d) of_field[axis_[d]] = cells[d];
+    return of_field;
 }
 
-void LasGenerator::subdivide(const Stage& stage, std::span<const double> normals,
-                             std::span<const double> parents, std::span<double> children) const {
-    constexpr std::size_t kMax = SubdivisionStencil::max_children;
-    const GridSpec coarse{stage.parents, grid().cell_size};
-    const GridSpec fine{stage.children, grid().cell_size};
-    const std::size_t noisy = stage.children_each - 1;
-    // Each parent writes its own children only, and always by the same sums.
-#pragma omp parallel for schedule(static) if (coarse.size() > 4096)
-    for (std::int32_t k = 0; k < stage.parents[2]; ++k) {
-        for (std::int32_t j = 0; j < stage.parents[1]; ++j) {
-            for (std::int32_t i = 0; i < stage.parents[0]; ++i) {
-                const SubdivisionStencil& stencil =
-                    stage.stencils[neighbourhood_of({i, j, k}, stage.parents).id()];
-                const std::size_t parent = coarse.index(i, j, k);
-                std::array<double, kMax> child{};
-                for (std::size_t n = 0; n < stencil.neighbours.size(); ++n) {
-                    const CellCount& at = stencil.neighbours[n];
-                    const double z = parents[coarse.index(i + at[0], j + at[1], k + at[2])];
-                    const auto& weight = stencil.weights[n];
-                    for (std::size_t c = 0; c < kMax; ++c) child[c] += weight[c] * z;
-                }
-                for (std::size_t n = 0; n < noisy; ++n) {
-                    const double u = normals[parent * noisy + n];
-                    for (std::size_t c = 0; c < kMax; ++c) child[c] += stencil.noise[n][c] * u;
-                }
-                // Conservation: the mean of the children is the parent.
-                double last = static_cast<double>(stage.children_each) * parents[parent];
-                for (std::size_t c = 0; c < noisy; ++c) last -= child[c];
-                child[noisy] = last;
+// Calls visit(cells, rows) for the grid of every stage.
+template <class Visit>
+void LasGenerator::run(std::span<const double> normals, const Visit& visit) const {
+    // Kept from field to field: fresh memory of this size would cost as much as the field.
+    thread_local std::vector<double> rows, details, children, plain;
+    const CellCount& first = stages_.front().parents();
+    const auto n0 = static_cast<std::size_t>(first[0]);
+    plain.resize(stage0_.normals());
+    rows.resize(plain.size());
+    stage0_.apply(normals.first(plain.size()), plain);
+    for (std::size_t c = 0; c < plain.size(); ++c) {
+        const auto i = static_cast<std::int32_t>(c % n0);
+        rows[c - c % n0 + static_cast<std::size_t>(place_in_row(i, first[0]))] = plain[c];
+    }
+    visit(first, rows);
+    std::size_t used = plain.size();
+    for (const Halving& stage : stages_) {
+        details.resize(stage.size());
+        children.resize(GridSpec{stage.children(), {}}.size());
+        stage.draw_details(normals.subspan(used, stage.size()), rows, details);
+        stage.make_children(rows, details, children);
+        used += stage.size();
+        std::swap(rows, children);
+        visit(stage.children(), rows);
+    }
+}
 
-                std::size_t c = 0;
-                for (std::int32_t dk = 0; dk < stage.split[2]; ++dk) {
-                    for (std::int32_t dj = 0; dj < stage.split[1]; ++dj) {
-                        for (std::int32_t di = 0; di < stage.split[0]; ++di, ++c) {
-                            const std::int32_t ci = stage.split[0] * i + di;
-                            const std::int32_t cj = stage.split[1] * j + dj;
-                            const std::int32_t ck = stage.split[2] * k + dk;
-                            if (ci < fine.cells[0] && cj < fine.cells[1] && ck < fine.cells[2]) {
-                                children[fine.index(ci, cj, ck)] = child[c];
-                            }
-                        }
+// From rows of the stages to the order of GridSpec::index().
+void LasGenerator::unpack(const CellCount& cells, std::span<const double> rows,
+                          std::span<double> field) const {
+    std::array<std::size_t, 3> of_field{}, stride{};
+    for (std::size_t d = 0; d < 3; ++d) of_field[axis_[d]] = static_cast<std::size_t>(cells[d]);
+    for (std::size_t d = 0; d < 3; ++d) {
+        stride[d] = axis_[d] == 0 ? 1 : axis_[d] == 1 ? of_field[0] : of_field[0] * of_field[1];
+    }
+    const auto n0 = static_cast<std::size_t>(cells[0]), n1 = static_cast<std::size_t>(cells[1]);
+    const std::size_t half = (n0 + 1) / 2;
+#pragma omp parallel for schedule(static) if (field.size() >= 32768)
+    for (std::int32_t k = 0; k < cells[2]; ++k) {
+        const double* plane = rows.data() + static_cast<std::size_t>(k) * n0 * n1;
+        double* to = field.data() + static_cast<std::size_t>(k) * stride[2];
+        if (axis_[0] == 0) {
+            for (std::size_t j = 0; j < n1; ++j) {
+                const double* row = plane + j * n0;
+                double* line = to + j * stride[1];
+                for (std::size_t t = 0; t < n0 / 2; ++t) {
+                    line[2 * t] = row[t];
+                    line[2 * t + 1] = row[half + t];
+                }
+                if (n0 % 2 == 1) line[n0 - 1] = row[half - 1];
+            }
+            continue;
+        }
+        // A transposition, in tiles that stay in the first cache.
+        constexpr std::size_t tile = 16;
+        for (std::size_t i0 = 0; i0 < n0; i0 += tile) {
+            for (std::size_t j0 = 0; j0 < n1; j0 += tile) {
+                for (std::size_t i = i0; i < std::min(n0, i0 + tile); ++i) {
+                    const double* column = plane + (i % 2 == 0 ? i / 2 : half + i / 2);
+                    double* line = to + i * stride[0];
+                    for (std::size_t j = j0; j < std::min(n1, j0 + tile); ++j) {
+                        line[j * stride[1]] = column[j * n0];
                     }
                 }
             }
@@ -105,16 +157,16 @@ void LasGenerator::subdivide(const Stage& stage, std::span<const double> normals
 }
 
 std::vector<std::vector<double>> LasGenerator::apply_stages(std::span<const double> normals) const {
-    std::vector<std::vector<double>> fields(1, std::vector<double>(stage0_.normals()));
-    stage0_.apply(normals.first(stage0_.normals()), fields[0]);
-    std::size_t used = stage0_.normals();
-    for (const Stage& stage : stages_) {
-        const std::size_t count = fields.back().size() * (stage.children_each - 1);
-        std::vector<double> children(GridSpec{stage.children, grid().cell_size}.size());
-        subdivide(stage, normals.subspan(used, count), fields.back(), children);
-        fields.push_back(std::move(children));
-        used += count;
+    std::vector<std::vector<double>> fields;
+    if (stages_.empty()) {
+        fields.emplace_back(grid().size());
+        stage0_.apply(normals, fields.front());
+        return fields;
     }
+    run(normals, [&](const CellCount& cells, std::span<const double> rows) {
+        fields.emplace_back(rows.size());
+        unpack(cells, rows, fields.back());
+    });
     return fields;
 }
 
@@ -123,8 +175,11 @@ void LasGenerator::apply(std::span<const double> normals, std::span<double> fiel
         stage0_.apply(normals, field);
         return;
     }
-    const auto fields = apply_stages(normals);
-    std::copy(fields.back().begin(), fields.back().end(), field.begin());
+    run(normals, [&](const CellCount& cells, std::span<const double> rows) {
+        if (rows.size() == field.size() && cells == stages_.back().children()) {
+            unpack(cells, rows, field);
+        }
+    });
 }
 
 }  // namespace grainfield::randomfield

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/vector/row_sums.hpp"
+
 namespace grainfield::randomfield {
 namespace {
 
-constexpr std::size_t kTile = 32;  // columns finished at a time, and rows of one update
+constexpr std::size_t kTile =
+    kernels::product_tile;  // columns finished at a time, and rows of one update
 
 // a(i, j) -= sum over k < first of l(i, k) l(j, k), in ascending k, for the tile of rows
 // [row, row + kTile) and columns [first, last). One accumulator an entry: no sum is ever split.
@@ -17,12 +20,15 @@ void update_tile(double* a, std::size_t n, std::size_t row, std::size_t first, s
     for (std::size_t c = 0; c < columns; ++c) {
         std::copy_n(a + row + (first + c) * n, rows, tile[c]);
     }
-    for (std::size_t k = 0; k < first; ++k) {
-        double l[kTile] = {};
-        std::copy_n(a + row + k * n, rows, l);
-        for (std::size_t c = 0; c < columns; ++c) {
-            const double factor = a[first + c + k * n];
-            for (std::size_t r = 0; r < kTile; ++r) tile[c][r] -= l[r] * factor;
+    if (rows == kTile) {
+        kernels::subtract_products(n, first, a + row, a + first, columns, tile[0]);
+    } else {
+        for (std::size_t k = 0; k < first; ++k) {
+            const double* l = a + row + k * n;
+            for (std::size_t c = 0; c < columns; ++c) {
+                const double factor = a[first + c + k * n];
+                for (std::size_t r = 0; r < rows; ++r) tile[c][r] -= l[r] * factor;
+            }
         }
     }
     for (std::size_t c = 0; c < columns; ++c) {
@@ -87,12 +93,7 @@ std::optional<LowerFactor> LowerFactor::of(std::vector<double> matrix, std::size
 }
 
 void LowerFactor::multiply(std::span<const double> x, std::span<double> product) const {
-    std::fill(product.begin(), product.end(), 0.0);
-    for (std::size_t j = 0; j < size_; ++j) {
-        const double* column = entries_.data() + j * size_;
-        const double xj = x[j];
-        for (std::size_t i = j; i < size_; ++i) product[i] += column[i] * xj;
-    }
+    kernels::multiply_lower(size_, entries_.data(), x.data(), product.data());
 }
 
 void LowerFactor::solve_lower(std::span<double> x) const {

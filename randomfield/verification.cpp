@@ -261,7 +261,10 @@ class Checker {
         DataCheck check;
         const auto count = static_cast<double>(n);
         for (const CellDatum& datum : generator_.conditioning()->data())
-            if (datum.property == *property_) ++check.cells;
+            if (datum.property == *property_) {
+                ++check.cells;
+                check.exact += datum.variance == 0.0 ? 1 : 0;
+            }
         std::vector<double> ratio;
         for (std::size_t c = 0; c < grid_.size(); ++c) {
             if (is_known(c)) {

@@ -53,6 +53,7 @@ struct HistogramCheck {
 /// Fields with data against the conditional mean and variance.
 struct DataCheck {
     std::size_t cells = 0;      ///< with data [-]
+    std::size_t exact = 0;      ///< of these, with exact ones [-]
     double largest_miss = 0.0;  ///< of G from its exact value, where it is known [-]
     double mean_off = 0.0;      ///< largest distance of a cell's mean, in standard errors [-]
     double mean_allowed = 0.0;  ///< for all cells together at false_alarm [-]

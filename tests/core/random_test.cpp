@@ -57,6 +57,25 @@ TEST(Random, NormalQuantileAgreesWithBoost) {
     EXPECT_EQ(normal_quantile(0.25), -normal_quantile(0.75));
 }
 
+// Normals drawn together are those drawn one by one, to the last bit: in vectors, in their odd
+// ends, across blocks and threads, in the tails, and where the index passes 32 bits.
+TEST(Random, ManyNormalsAreTheSameAsSingleOnes) {
+    const RandomStream stream(20240607, Stream::field_stiffness);
+    std::size_t different = 0, tails = 0;
+    for (const std::size_t count : {1u, 3u, 8u, 9u, 255u, 257u, 40000u}) {
+        for (const std::uint64_t first : {0ull, 5ull, 0xFFFFFFF0ull, 0xFFFFFFFFFFull}) {
+            std::vector<double> values(count);
+            stream.normals(77, first, values);
+            for (std::size_t i = 0; i < count; ++i) {
+                different += values[i] != stream.normal(77, first + i);
+                tails += std::abs(values[i]) > 3.0;
+            }
+        }
+    }
+    EXPECT_EQ(different, 0u);
+    EXPECT_GT(tails, 100u);
+}
+
 TEST(Random, UniformsAreInsideTheOpenInterval) {
     const RandomStream stream(1, Stream::packing_position);
     for (std::uint64_t i = 0; i < 100000; ++i) {

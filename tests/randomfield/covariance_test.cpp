@@ -1,15 +1,15 @@
-// Exact covariances of local averages: the specification's table, an independent integration, and
-// the limits of very short and very long correlation lengths.
+// Exact covariances of local averages of the Markov field: the specification's table, the
+// one-dimensional factors, and the limits of very short and very long correlation lengths.
 
 #include "randomfield/covariance.hpp"
 
 #include <gtest/gtest.h>
 
-#include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "randomfield/covariance_factors.hpp"
 #include "tests/randomfield/field_support.hpp"
 
 namespace grainfield::randomfield {
@@ -31,80 +31,6 @@ TEST(Covariance, SpecificationTableToItsLastDigit) {
         EXPECT_NEAR(covariance(1, 0, 0) / gamma, row.next_x, 0.5001e-4) << row.theta_y;
         EXPECT_NEAR(covariance(0, 1, 0) / gamma, row.next_y, 0.5001e-4) << row.theta_y;
         EXPECT_DOUBLE_EQ(covariance(0, 0, 1), covariance(1, 0, 0));
-    }
-}
-
-// Independent: the double average over two cells as a triple integral over the distance,
-//   C = int prod (1 - |v_d|) rho(k + v) dv over [-1, 1]^3,
-// by Gauss rules on the eight octants (rho is smooth inside them), which must not be elongated
-// much: the kink at the origin is taken out by Duffy's transform where it lies in a corner.
-double triple_integral(const Vec3& theta, const std::array<int, 3>& lag) {
-    using Gauss = boost::math::quadrature::gauss<double, 60>;
-    const auto rho = [&](double x, double y, double z) {
-        const Vec3 tau = Vec3(x, y, z).cwiseProduct(kBlock).cwiseQuotient(theta);
-        return std::exp(-2.0 * tau.norm());
-    };
-    double total = 0.0;
-    for (int octant = 0; octant < 8; ++octant) {
-        const std::array<double, 3> sign{octant & 1 ? -1.0 : 1.0, octant & 2 ? -1.0 : 1.0,
-                                         octant & 4 ? -1.0 : 1.0};
-        // In this octant v_d = sign_d a_d with a_d in [0, 1]. If the tip of rho, k + v = 0, is one
-        // of its corners, measure b_d = |k_d + v_d| from there: b_d = |k_d| +- a_d.
-        std::array<double, 3> corner{};
-        bool tip = true;
-        for (std::size_t d = 0; d < 3; ++d) {
-            const bool towards = sign[d] * lag[d] < 0;
-            corner[d] = std::abs(lag[d]) - (towards ? 1.0 : 0.0);  // smallest |k_d + v_d|
-            tip = tip && corner[d] == 0.0;
-        }
-        const auto integrand = [&](double b0, double b1, double b2) {
-            const std::array<double, 3> b{b0, b1, b2};
-            double weight = 1.0;
-            for (std::size_t d = 0; d < 3; ++d) {
-                const bool towards = sign[d] * lag[d] < 0;
-                weight *= towards ? b[d] : 1.0 - b[d];
-            }
-            return weight * rho(corner[0] + b0, corner[1] + b1, corner[2] + b2);
-        };
-        const auto cube = [&](const auto& f) {
-            return Gauss::integrate(
-                [&](double x) {
-                    return Gauss::integrate(
-                        [&](double y) {
-                            return Gauss::integrate([&](double z) { return f(x, y, z); }, 0.0, 1.0);
-                        },
-                        0.0, 1.0);
-                },
-                0.0, 1.0);
-        };
-        if (!tip) {
-            total += cube(integrand);
-            continue;
-        }
-        // Duffy: the cube as three pyramids with the tip at the corner; the Jacobian is r^2.
-        total += cube([&](double r, double p, double q) {
-            return r * r *
-                   (integrand(r, r * p, r * q) + integrand(r * p, r, r * q) +
-                    integrand(r * p, r * q, r));
-        });
-    }
-    return total;
-}
-
-TEST(Covariance, AgreesWithDirectIntegration) {
-    const std::array<Vec3, 4> thetas{Vec3(1.0, 1.0, 1.0), Vec3(0.5, 0.25, 0.4), paper_theta(1.0),
-                                     Vec3(0.6, 2.0, 1.1)};
-    const std::array<std::array<int, 3>, 6> lags{
-        {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}, {2, 0, 1}, {3, 2, 0}}};
-    for (const Vec3& theta : thetas) {
-        const LocalAverageCovariance covariance(kBlock, theta, {4, 4, 4});
-        for (const auto& lag : lags) {
-            const double reference = triple_integral(theta, lag);
-            // Round-off of 216,000 terms of one sign, and the nearly singular octants beside the
-            // tip's line, which 60 points resolve to 1e-11 at an aspect of 10.
-            EXPECT_NEAR(covariance(lag[0], lag[1], lag[2]), reference, 2e-11 * reference)
-                << theta.transpose() << " lag " << lag[0] << lag[1] << lag[2];
-        }
     }
 }
 

@@ -8,6 +8,7 @@
 #include "randomfield/cholesky_generator.hpp"
 #include "randomfield/covariance.hpp"
 #include "randomfield/field_error.hpp"
+#include "randomfield/las_classic_generator.hpp"
 #include "randomfield/las_generator.hpp"
 #include "tests/randomfield/field_support.hpp"
 
@@ -120,13 +121,13 @@ TEST(Las, WithoutSubdivisionIsTheExactFactor) {
 }
 
 // physics.md: 3 x 6 x 3 -> 6 x 12 x 6 at the paper's anisotropy.
-TEST(Las, OneSubdivisionHasTheKnownErrors) {
+TEST(LasClassic, OneSubdivisionHasTheKnownErrors) {
     struct Row {
         double theta_y, error;
     };
     for (const Row& row :
          {Row{0.01, 0.145}, Row{0.1, 0.396}, Row{0.5, 0.201}, Row{1.0, 0.112}, Row{10.0, 0.012}}) {
-        const LasGenerator las(GridSpec{}, paper_theta(row.theta_y), 54);
+        const LasClassicGenerator las(GridSpec{}, paper_theta(row.theta_y), 54);
         ASSERT_EQ(las.subdivisions(), 1u);
         EXPECT_EQ(las.stage_cells(0), (CellCount{3, 6, 3}));
         EXPECT_EQ(las.normals(), 432u);
@@ -138,9 +139,9 @@ TEST(Las, OneSubdivisionHasTheKnownErrors) {
 }
 
 // Within one parent and one split everything is exact, the child made by conservation included.
-TEST(Las, SiblingsAreExactAfterOneSubdivision) {
+TEST(LasClassic, SiblingsAreExactAfterOneSubdivision) {
     const Vec3 theta = paper_theta(0.5);
-    const LasGenerator las(GridSpec{}, theta, 54);
+    const LasClassicGenerator las(GridSpec{}, theta, 54);
     const Eigen::MatrixXd map = linear_map(las);
     const Eigen::MatrixXd error = map * map.transpose() - exact_covariance(GridSpec{}, theta);
     const GridSpec grid;
@@ -153,92 +154,6 @@ TEST(Las, SiblingsAreExactAfterOneSubdivision) {
                 1e-12);
         }
     }
-}
-
-TEST(Las, ParentsAreTheMeansOfTheirChildren) {
-    for (const CellCount& cells :
-         {CellCount{12, 24, 12}, CellCount{8, 1, 8}, CellCount{16, 1, 1}, CellCount{2, 32, 4}}) {
-        const LasGenerator las(GridSpec{cells, Vec3(0.25, 0.25, 0.25)}, paper_theta(0.3), 5);
-        ASSERT_GE(las.subdivisions(), 2u);
-        std::vector<double> u(las.normals());
-        for (std::size_t i = 0; i < u.size(); ++i) u[i] = std::cos(3.0 * static_cast<double>(i));
-        const auto fields = las.apply_stages(u);
-        for (std::size_t s = 1; s < fields.size(); ++s) {
-            const GridSpec coarse{las.stage_cells(s - 1), {}};
-            const GridSpec fine{las.stage_cells(s), {}};
-            std::vector<double> sum(coarse.size(), 0.0);
-            std::vector<int> children(coarse.size(), 0);
-            for (std::int32_t k = 0; k < fine.cells[2]; ++k) {
-                for (std::int32_t j = 0; j < fine.cells[1]; ++j) {
-                    for (std::int32_t i = 0; i < fine.cells[0]; ++i) {
-                        const auto half = [](std::int32_t n, std::int32_t m) {
-                            return m == 1 ? 0 : n / 2;
-                        };
-                        const std::size_t parent = coarse.index(
-                            half(i, fine.cells[0]), half(j, fine.cells[1]), half(k, fine.cells[2]));
-                        sum[parent] += fields[s][fine.index(i, j, k)];
-                        ++children[parent];
-                    }
-                }
-            }
-            for (std::size_t p = 0; p < sum.size(); ++p) {
-                if (children[p] < children[0]) continue;  // cut at the end of an odd direction
-                EXPECT_NEAR(sum[p] / children[p], fields[s - 1][p], 1e-14);
-            }
-        }
-    }
-}
-
-// Grids that are not powers of two of anything: embedded and cut. Not exact, but close, and the
-// error falls as stage 0 grows.
-TEST(Las, AnyGridWorksAndLargerStagesAreCloser) {
-    for (const CellCount& cells : {CellCount{5, 7, 3}, CellCount{8, 1, 8}, CellCount{7, 1, 1},
-                                   CellCount{1, 1, 9}, CellCount{6, 12, 6}, CellCount{2, 2, 2}}) {
-        const GridSpec grid{cells, Vec3(0.25, 0.25, 0.25)};
-        for (const double theta_y : {2.5e-4, 0.1, 10.0, 3e4}) {
-            const Vec3 theta = paper_theta(theta_y);
-            for (const std::int64_t stage0 : {1, 4, 30}) {
-                const LasGenerator las(grid, theta, stage0);
-                const CellCount& first = las.stage_cells(0);
-                EXPECT_LE(first[0] * first[1] * first[2], stage0);
-                const CovarianceError error = covariance_error(las);
-                EXPECT_LT(error.covariance, 0.7) << theta_y << " stage 0 " << stage0;
-                EXPECT_LT(error.variance, 0.35) << theta_y << " stage 0 " << stage0;
-                if (theta_y > 1e3) {
-                    EXPECT_LT(error.covariance, 1e-4);
-                }
-            }
-            const LasGenerator exact(grid, theta, 1000);
-            EXPECT_LT(covariance_error(exact).covariance, 1e-12);
-        }
-    }
-    const LasGenerator cell(grid_of(1, 1, 1), paper_theta(1.0), 1);
-    EXPECT_EQ(cell.subdivisions(), 0u);
-    EXPECT_EQ(cell.normals(), 1u);
-}
-
-// The default stage 0 is Fenton's: a fine grid starts from at most 512 cells.
-TEST(Las, FineGridsStartFromAtMost512Cells) {
-    const LasGenerator las(grid_of(48, 96, 48), paper_theta(1.0));
-    EXPECT_EQ(las.subdivisions(), 3u);
-    EXPECT_EQ(las.stage_cells(0), (CellCount{6, 12, 6}));
-    EXPECT_EQ(las.stage_cells(3), (CellCount{48, 96, 48}));
-    EXPECT_EQ(las.normals(), 48u * 96u * 48u);
-    EXPECT_NE(input_error([&] { linear_map(las); }).find("2048"), std::string::npos);
-}
-
-TEST(Las, RefusesGridsWithoutCells) {
-    EXPECT_NE(
-        input_error([] { LasGenerator(grid_of(0, 1, 1), paper_theta(1.0)); }).find("[0, 1, 1]"),
-        std::string::npos);
-    EXPECT_NE(input_error([] {
-                  LasGenerator(grid_of(2000, 2000, 2000), paper_theta(1.0));
-              }).find("1e+09"),
-              std::string::npos);
-    GridSpec flat;
-    flat.cell_size[1] = 0.0;
-    EXPECT_NE(input_error([&] { LasGenerator(flat, paper_theta(1.0)); }).find("cell size"),
-              std::string::npos);
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ TEST(Verification, FindsNothingWrongWithTheExactField) {
     EXPECT_LT(result.covariance_error->covariance, 1e-12);
     ASSERT_TRUE(result.cross_correlation);
     EXPECT_TRUE(result.cross_correlation->inside());
-    EXPECT_EQ(result.cross_correlation->exact, 0.6);
+    EXPECT_DOUBLE_EQ(result.cross_correlation->exact, 0.6);
     for (const FieldCheck& field : result.fields) {
         EXPECT_EQ(outside(field), 0u);
         EXPECT_EQ(field.variance.outside, 0u);
@@ -110,6 +110,7 @@ TEST(Verification, ChecksTheDataTheyAreConditionedOn) {
     EXPECT_EQ(outside(field), 0u);  // of the field without data
     ASSERT_TRUE(field.data);
     EXPECT_EQ(field.data->cells, 2u);
+    EXPECT_EQ(field.data->exact, 1u);
     EXPECT_LT(field.data->largest_miss, 1e-12);
     EXPECT_LT(field.data->mean_off, field.data->mean_allowed);
     EXPECT_EQ(field.data->variance.outside, 0u);

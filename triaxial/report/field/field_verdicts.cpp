@@ -70,10 +70,12 @@ void add_histogram(std::vector<Verdict>& all, const FieldCheck& check, const std
 
 void add_data(std::vector<Verdict>& all, const randomfield::DataCheck& data,
               const std::string& name) {
-    all.push_back({"data" + name,
-                   fmt::format("{} cells with data, G missed by {:.1e} at most where it is exact",
-                               data.cells, data.largest_miss),
-                   data.largest_miss < 1e-9});
+    all.push_back(
+        {"data" + name,
+         fmt::format(
+             "{} cells with data, {} exact{}", data.cells, data.exact,
+             data.exact == 0 ? "" : fmt::format(": G missed by {:.1e} at most", data.largest_miss)),
+         data.largest_miss < 1e-9});
     all.push_back(
         {"conditional mean" + name,
          fmt::format("furthest of all cells {:.2f} standard errors, {:.2f} allowed (99 %)",
