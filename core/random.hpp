@@ -25,6 +25,7 @@ enum class Stream : std::uint32_t {
     perturbation = 7,          ///< displacements that measure how chaotic a result is
     bootstrap = 8,             ///< which values a resample of a campaign's results holds
     parametric_bootstrap = 9,  ///< samples of a fitted distribution, for p values
+    field_data = 10,           ///< errors of the values that a field is conditioned on
 };
 
 /// Philox4x32 with ten rounds: the raw bijection of the counter under the key.

@@ -1,5 +1,11 @@
 #include "randomfield/block_field.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "core/errors.hpp"
 #include "core/random.hpp"
 
 namespace grainfield::randomfield {
@@ -8,6 +14,34 @@ namespace {
 FieldOptions checked(const FieldOptions& options) {
     options.validate();
     return options;
+}
+
+/// The property that a data file is about where its header does not say so.
+std::optional<Property> only_property(const FieldOptions& options) {
+    if (options.variable == Variable::friction) return Property::friction_angle;
+    if (options.variable == Variable::stiffness) return Property::normal_stiffness;
+    return std::nullopt;
+}
+
+std::shared_ptr<const Conditioning> make_conditioning(const FieldOptions& options,
+                                                      const Generator& generator,
+                                                      const RowMarginals& friction,
+                                                      const RowMarginals& stiffness) {
+    if (options.data.empty()) return nullptr;
+    if (options.variable == Variable::none)
+        throw InputError(
+            fmt::format("field.data = \"{}\": field.variable = \"none\" leaves no random property "
+                        "to condition; allowed are \"friction\", \"stiffness\" and \"both\"",
+                        options.data));
+    const auto marginals = [&](Property property) -> const RowMarginals* {
+        if (!options.random(property)) return nullptr;
+        return property == Property::friction_angle ? &friction : &stiffness;
+    };
+    const GridSpec& grid = generator.grid();
+    const auto measurements = read_measurements(options.data, grid, only_property(options));
+    return std::make_shared<const Conditioning>(
+        grid, LocalAverageCovariance(grid.cell_size, generator.correlation(), grid.cells),
+        options.cross_correlation, cell_data(options.data, measurements, grid, marginals));
 }
 
 }  // namespace
@@ -22,36 +56,63 @@ FieldGenerator::FieldGenerator(const GridSpec& grid, const FieldOptions& options
     : options_(checked(options)),
       generator_(make_generator(grid, {options.correlation_length, options.correlation},
                                 options.method, options.stage0_cells)),
-      stiffness_(options.stiffness, generator_->gamma()) {}
+      friction_(options.friction, Property::friction_angle, grid, generator_->gamma()),
+      stiffness_(options.stiffness, Property::normal_stiffness, grid, generator_->gamma()),
+      conditioning_(make_conditioning(options, *generator_, friction_, stiffness_)) {}
 
-BlockField FieldGenerator::draw(std::uint64_t realization) const {
+BlockField FieldGenerator::gaussian(std::uint64_t realization) const {
     BlockField field;
     field.grid = grid();
     std::vector<double> normals(generator_->normals());
-    const auto gaussian = [&](core::Stream stream) {
+    const auto draw_one = [&](core::Stream stream) {
         core::RandomStream(options_.seed, stream).normals(realization, 0, normals);
         std::vector<double> g(grid().size());
         generator_->apply(normals, g);
         return g;
     };
-    const bool both = options_.variable == Variable::both;
     if (options_.variable == Variable::stiffness) {
-        field.G = gaussian(core::Stream::field_stiffness);
-    } else {
-        field.G = gaussian(core::Stream::field_friction);
+        field.G = draw_one(core::Stream::field_stiffness);
+        return field;
     }
-    if (both) field.G_stiffness = gaussian(core::Stream::field_stiffness);
+    field.G = draw_one(core::Stream::field_friction);
+    if (options_.variable != Variable::both) return field;
+    field.G_stiffness = draw_one(core::Stream::field_stiffness);
+    const double rho = options_.cross_correlation;
+    if (rho == 0.0) return field;
+    const double rest = std::sqrt((1.0 - rho) * (1.0 + rho));
+    for (std::size_t c = 0; c < field.G.size(); ++c)
+        field.G_stiffness[c] = rho * field.G[c] + rest * field.G_stiffness[c];
+    return field;
+}
 
-    if (both || options_.variable == Variable::friction) {
-        for (const double g : field.G) {
-            field.friction_angle.push_back(randomfield::friction_angle(options_.friction, g));
-        }
+void FieldGenerator::condition(BlockField& field, std::uint64_t realization) const {
+    if (!conditioning_) return;
+    std::vector<double> errors(conditioning_->data().size());
+    core::RandomStream(options_.seed, core::Stream::field_data).normals(realization, 0, errors);
+    if (options_.variable == Variable::stiffness) {
+        conditioning_->apply({}, field.G, errors);
+    } else {
+        conditioning_->apply(field.G, field.G_stiffness, errors);
     }
-    if (both || options_.variable == Variable::stiffness) {
-        for (const double g : both ? field.G_stiffness : field.G) {
-            field.normal_stiffness.push_back(stiffness_(g));
-        }
-    }
+}
+
+void FieldGenerator::transform(BlockField& field) const {
+    if (options_.random(Property::friction_angle)) field.friction_angle = friction_.values(field.G);
+    if (options_.random(Property::normal_stiffness))
+        field.normal_stiffness =
+            stiffness_.values(options_.variable == Variable::both ? field.G_stiffness : field.G);
+}
+
+BlockField FieldGenerator::draw(std::uint64_t realization) const {
+    BlockField field = gaussian(realization);
+    condition(field, realization);
+    transform(field);
+    return field;
+}
+
+BlockField FieldGenerator::draw_unconditional(std::uint64_t realization) const {
+    BlockField field = gaussian(realization);
+    transform(field);
     return field;
 }
 

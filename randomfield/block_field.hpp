@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "randomfield/conditioning.hpp"
 #include "randomfield/field_error.hpp"
 #include "randomfield/field_options.hpp"
 #include "randomfield/generator.hpp"
@@ -31,29 +32,46 @@ struct BlockField {
 /// Set up once (milliseconds for the paper's 6 x 12 x 6 blocks), then any number of draws.
 class FieldGenerator {
   public:
-    /// InputError where grid or options are not valid or no such field can be computed.
+    /// Reads options.data where it is given. InputError where grid, options or data are not valid
+    /// or no such field can be computed, FileError where the data cannot be read.
     FieldGenerator(const GridSpec& grid, const FieldOptions& options);
 
     /// Realization k: a pure function of (seed, k). Safe from many threads. With Variable::none
-    /// only G is drawn, that of the friction angle. Friction and stiffness are uncorrelated, each
-    /// the same whether drawn alone or with the other.
+    /// only G is drawn, that of the friction angle. Where both properties are random,
+    ///   G_stiffness = rho G_friction + sqrt(1 - rho^2) G',  rho = options.cross_correlation;
+    /// friction, and at rho = 0 stiffness too, is the same whether drawn alone or with the other.
+    /// Data change the field (conditioning.hpp), but not the random numbers behind it.
+    /// SimulationError where a value is none that its property can have.
     [[nodiscard]] BlockField draw(std::uint64_t realization) const;
+    /// The same as if there were no data.
+    [[nodiscard]] BlockField draw_unconditional(std::uint64_t realization) const;
 
     [[nodiscard]] const GridSpec& grid() const { return generator_->grid(); }
     [[nodiscard]] const FieldOptions& options() const { return options_; }
     [[nodiscard]] const Generator& generator() const { return *generator_; }
     /// Variance of a cell's G: below 1, as cells are local averages [-].
     [[nodiscard]] double gamma() const { return generator_->gamma(); }
-    /// E[k_n of a cell] / field.stiffness.mean, see StiffnessTransform::mean_ratio() [-].
+    /// How a property is distributed over the cells, before any data.
+    [[nodiscard]] const RowMarginals& marginals(Property property) const {
+        return property == Property::friction_angle ? friction_ : stiffness_;
+    }
+    /// The data in force, or nullptr.
+    [[nodiscard]] const Conditioning* conditioning() const { return conditioning_.get(); }
+    /// E[k_n of a cell] over that of a point, before any data, see RowMarginals::mean_ratio() [-].
     [[nodiscard]] double stiffness_mean_ratio() const { return stiffness_.mean_ratio(); }
     /// Largest error of the generator's covariances in units of gamma, without sampling: round-off
     /// where the method is exact. InputError above max_error_cells cells [-].
     [[nodiscard]] double covariance_error() const;
 
   private:
+    BlockField gaussian(std::uint64_t realization) const;
+    void condition(BlockField& field, std::uint64_t realization) const;
+    void transform(BlockField& field) const;
+
     FieldOptions options_;
     std::shared_ptr<const Generator> generator_;
-    StiffnessTransform stiffness_;
+    RowMarginals friction_, stiffness_;
+    std::shared_ptr<const Conditioning> conditioning_;
 };
 
 }  // namespace grainfield::randomfield

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "core/errors.hpp"
+#include "randomfield/marginals.hpp"
 
 namespace grainfield::randomfield {
 namespace {
@@ -28,19 +28,18 @@ void FieldOptions::validate() const {
     require(!stage0_cells || *stage0_cells >= 1, "field.stage0_cells",
             fmt::format("{}", stage0_cells.value_or(1)), "must be at least 1");
 
-    const double half_pi = std::numbers::pi / 2.0;
-    require(friction.minimum >= 0.0 && friction.minimum < half_pi, "field.friction.minimum",
-            fmt::format("{}", friction.minimum), "must be in [0, pi/2) (rad)");
-    require(friction.maximum > friction.minimum && friction.maximum < half_pi,
-            "field.friction.maximum", fmt::format("{}", friction.maximum),
-            "must be above field.friction.minimum and below pi/2 (rad)");
-    require(positive(friction.s), "field.friction.s", fmt::format("{}", friction.s),
-            "must be positive and finite");
+    require(std::abs(cross_correlation) <= 1.0, "field.cross_correlation",
+            fmt::format("{}", cross_correlation),
+            "the correlation matrix [[1, rho], [rho, 1]] is not positive definite: rho must be in "
+            "[-1, 1]");
+    randomfield::validate(friction, Property::friction_angle, "field.friction");
+    randomfield::validate(stiffness, Property::normal_stiffness, "field.stiffness");
+}
 
-    require(positive(stiffness.mean), "field.stiffness.mean", fmt::format("{}", stiffness.mean),
-            "must be positive and finite (Pa)");
-    require(positive(stiffness.cov), "field.stiffness.cov", fmt::format("{}", stiffness.cov),
-            "must be positive and finite");
+void FieldOptions::validate(const GridSpec& grid) const {
+    validate();
+    randomfield::validate(friction, Property::friction_angle, "field.friction", grid);
+    randomfield::validate(stiffness, Property::normal_stiffness, "field.stiffness", grid);
 }
 
 }  // namespace grainfield::randomfield

@@ -1,12 +1,14 @@
 #pragma once
 // What a random field is asked to be.
 
-#include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "kernels/vec3.hpp"
 #include "randomfield/correlation.hpp"
+#include "randomfield/grid.hpp"
+#include "randomfield/marginal_options.hpp"
 
 namespace grainfield::randomfield {
 
@@ -18,20 +20,6 @@ enum class Method {
     circulant     ///< exact, FFT on a periodic grid around
 };
 
-/// Bounded marginal of the friction angle, Eq. (7).
-struct FrictionMarginal {
-    double minimum = 0.3;  ///< phi_min [rad]
-    double maximum = 0.9;  ///< phi_max [rad]
-    double s = 2.0;        ///< variability factor [-]
-};
-
-/// Lognormal marginal of the normal stiffness, Eqs. (8)-(9).
-struct StiffnessMarginal {
-    double mean = 9e8;           ///< mu [Pa]
-    double cov = 0.8;            ///< coefficient of variation [-]
-    bool preserve_mean = false;  ///< rescale so that the mean over cells is mu, not less [-]
-};
-
 struct FieldOptions {
     Variable variable = Variable::none;
     Method method = Method::las;
@@ -39,10 +27,26 @@ struct FieldOptions {
     std::uint64_t seed = 1;                    ///< [-]
     Vec3 correlation_length{10.0, 1.0, 10.0};  ///< theta_x, theta_y, theta_z [m]
     std::optional<std::int64_t> stage0_cells;  ///< largest stage 0 of LAS [-]
-    FrictionMarginal friction;
-    StiffnessMarginal stiffness;
+    /// Between the Gaussian fields of friction angle and stiffness, where both are random [-].
+    double cross_correlation = 0.0;
+    /// CSV of measured values to condition on (field_data.hpp); empty: none.
+    std::string data;
+    /// Friction angle, Eq. (7) unless another marginal is asked for.
+    MarginalOptions friction{MarginalKind::bounded, 0.3, 0.9, 2.0, 0.6, 0.15};
+    /// Normal stiffness, Eqs. (8)-(9) unless another marginal is asked for.
+    MarginalOptions stiffness{MarginalKind::lognormal, {}, {}, 2.0, 9e8, 0.8};
 
-    void validate() const;  ///< throws InputError naming key, value and what is allowed
+    /// Whether a property is random.
+    [[nodiscard]] bool random(Property property) const {
+        return variable == Variable::both ||
+               variable == (property == Property::friction_angle ? Variable::friction
+                                                                 : Variable::stiffness);
+    }
+
+    /// Both throw InputError naming key, value and what is allowed; the second also where a trend
+    /// leads out of what is allowed on the rows of a grid.
+    void validate() const;
+    void validate(const GridSpec& grid) const;
 };
 
 }  // namespace grainfield::randomfield

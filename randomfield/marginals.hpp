@@ -1,34 +1,107 @@
 #pragma once
-// From the Gaussian field to the soil: the marginal distributions of Eqs. (7)-(9).
+// From the Gaussian field to the soil: the marginal distribution of a property, Eqs. (7)-(9) and
+// four more.
 
-#include "randomfield/field_options.hpp"
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "randomfield/grid.hpp"
+#include "randomfield/marginal_families.hpp"
 
 namespace grainfield::randomfield {
 
-/// Eq. (7): phi = phi_min + (phi_max - phi_min)/2 [1 + tanh(s G / 2 pi)] [rad].
-double friction_angle(const FrictionMarginal& marginal, double g);
+/// Mean and standard deviation [rad or Pa].
+struct Moments {
+    double mean = 0.0;
+    double deviation = 0.0;
+};
 
-/// Eqs. (8)-(9): k_n = exp(mu_ln + sigma_ln G), of a point or of a cell's average G.
-class StiffnessTransform {
+/// The distribution of one property over cells whose G has a variance of gamma, at one height.
+///
+/// The paper puts local averages G (variance gamma < 1) into Eqs. (7) and (8) as they are, and so
+/// do all distributions here: cells vary less than points, and their mean is another than a point's
+/// unless the distribution is symmetric. preserve_mean scales all values (bounds included) by one
+/// factor that undoes the latter.
+class Marginal {
   public:
-    /// gamma: variance of the G that will be put in, gamma(D) for cells of size D (1 for points);
-    /// it matters for preserve_mean and the mean only [-].
-    StiffnessTransform(const StiffnessMarginal& marginal, double gamma);
+    /// Options as validate() accepts them; gamma in (0, 1], 1 for points [-].
+    Marginal(const MarginalOptions& options, double gamma);
 
-    /// k_n of a cell [Pa].
+    /// The property where the field is g [rad or Pa].
     [[nodiscard]] double operator()(double g) const;
+    /// values[i] = (*this)(g[i]); equally long.
+    void apply(std::span<const double> g, std::span<double> values) const;
+    /// The g that gives a value inside range(); NaN or infinite outside [-].
+    [[nodiscard]] double score(double value) const;
+    /// d value / d g, by central differences, good to 1e-7 [rad or Pa].
+    [[nodiscard]] double slope(double g) const;
+    /// All values lie in this interval [rad or Pa].
+    [[nodiscard]] Interval range() const;
 
-    [[nodiscard]] double mu_ln() const { return mu_ln_; }        ///< Eq. (9b) [ln Pa]
-    [[nodiscard]] double sigma_ln() const { return sigma_ln_; }  ///< Eq. (9a) [-]
-    /// E[k_n of a cell] / mu. The paper puts averages (variance gamma < 1) into Eq. (8), so the
-    /// mean falls to exp(-sigma_ln^2 (1 - gamma)/2), unless preserve_mean scales it back to 1 [-].
-    [[nodiscard]] double mean_ratio() const;
+    /// Of a cell. By quadrature over G (Gauss-Kronrod, 1e-10 of the deviation), lognormal and
+    /// normal in closed form.
+    [[nodiscard]] Moments moments() const;
+    /// Of a point, before preserve_mean: the moments that the options ask for (truncated normal:
+    /// after the cut).
+    [[nodiscard]] Moments point_moments() const;
+    /// Share of the cells below a value [-].
+    [[nodiscard]] double cell_cdf(double value) const;
 
   private:
-    double sigma_ln_;
-    double mu_ln_;
-    double loss_;    ///< sigma_ln^2 (1 - gamma)/2 [-]
-    double factor_;  ///< exp(loss) under preserve_mean, else 1 [-]
+    std::variant<Bounded, Lognormal, Normal, TruncatedNormal, Beta, Weibull> family_;
+    double gamma_;
+    double factor_ = 1.0;  ///< other than 1 under preserve_mean only [-]
+};
+
+/// Distributions must hold values that the property can have up to so many standard deviations.
+inline constexpr double most_deviations = 6.0;
+
+/// InputError where the options make no distribution, or one that the property cannot have:
+/// friction angles below 0 or from pi/2 on, stiffnesses not above 0. Bounded distributions must
+/// stay inside, others up to six standard deviations, beyond which a point lies with a probability
+/// of 1e-9. The message names `key` ("field.friction") with what follows it, value and allowed.
+void validate(const MarginalOptions& options, Property property, const std::string& key);
+
+/// The same for every row of cells of a grid, whose means follow the trend.
+void validate(const MarginalOptions& options, Property property, const std::string& key,
+              const GridSpec& grid);
+
+/// One property over the cells of a grid: the marginal of every row of cells, by its height.
+class RowMarginals {
+  public:
+    /// The mean of the cells (i, j, k) is that at the height y of their middle:
+    /// mean + mean_gradient (y - H/2), y up from the bottom of the sample and H its height.
+    /// InputError as validate().
+    RowMarginals(const MarginalOptions& options, Property property, const GridSpec& grid,
+                 double gamma);
+
+    [[nodiscard]] Property property() const { return property_; }
+    /// The marginal of the cells (i, j, k), whatever i and k.
+    [[nodiscard]] const Marginal& row(std::int32_t j) const {
+        return rows_[rows_.size() == 1 ? 0 : static_cast<std::size_t>(j)];
+    }
+    /// The property of every cell, from G of every cell, both at GridSpec::index() [rad or Pa].
+    /// SimulationError where a value is none that the property can have, see validate().
+    [[nodiscard]] std::vector<double> values(std::span<const double> g) const;
+
+    /// Of a cell taken at random from all rows [rad or Pa].
+    [[nodiscard]] Moments moments() const;
+    [[nodiscard]] double cell_cdf(double value) const;  ///< share below a value [-]
+    /// The value that a share p of the cells lies below, 1e-15 < p < 1 - 1e-15 [rad or Pa].
+    [[nodiscard]] double cell_quantile(double p) const;
+    /// Mean over the rows of a point's mean [rad or Pa].
+    [[nodiscard]] double point_mean() const;
+    /// moments().mean / point_mean() [-].
+    [[nodiscard]] double mean_ratio() const { return moments().mean / point_mean(); }
+
+  private:
+    Property property_;
+    GridSpec grid_;
+    double gamma_;
+    std::vector<Marginal> rows_;  ///< one for all rows without a trend
 };
 
 }  // namespace grainfield::randomfield

@@ -72,6 +72,14 @@ TEST_F(Folder, AnotherCampaignIsRefusedByName) {
                 testing::AllOf(HasSubstr("density = 2600"), HasSubstr("density = 2500")));
     EXPECT_THAT(message_of<InputError>([&] { open(cases("solver.precision = 'double'\n")); }),
                 HasSubstr("precision"));
+    // What a file of measured values says is part of the campaign, not only its name.
+    write("cpt.csv", "x,y,z,value,error\n0,0,0,9e8,0\n");
+    const std::string key = "field.data = 'cpt.csv'\n";
+    { open(cases(key), {}, "data"); }
+    EXPECT_NO_THROW(open(cases(key), {}, "data"));
+    write("cpt.csv", "x,y,z,value,error\n0,0,0,8e8,0\n");
+    EXPECT_THAT(message_of<InputError>([&] { open(cases(key), {}, "data"); }),
+                HasSubstr("the values in the file of field.data were others"));
     // More realizations, other cases: the same campaign.
     EXPECT_NO_THROW(open(cases("montecarlo.realizations = 500\n")));
     EXPECT_NO_THROW(open(cases("[[montecarlo.case]]\nname = 'other'\n")));

@@ -37,10 +37,25 @@ seed = 8
 correlation = "matern32"
 correlation_length = [5, 0.5, 6.0]
 stage0_cells = 512
-friction = { minimum = 0.2, maximum = 0.8, s = 3 }
+cross_correlation = 0.5
+data = "/data/cpt.csv"
+stiffness.minimum = 1e8
+stiffness.maximum = 9e9
+stiffness.s = 3
+stiffness.marginal = "beta"
 stiffness.mean = 8e8
 stiffness.cov = 1.6
+stiffness.mean_gradient = -1e7
 stiffness.preserve_mean = true
+[field.friction]
+marginal = "truncated-normal"
+minimum = 0.2
+maximum = 0.8
+s = 3
+mean = 0.5
+cov = 0.2
+mean_gradient = 0.01
+preserve_mean = true
 [triaxial]
 confining_stress = 200e3
 strain_rate = 0.02
@@ -73,8 +88,11 @@ inline Config changed_config() {
     c.field.seed = 8;
     c.field.correlation_length = {5, 0.5, 6};
     c.field.stage0_cells = 512;
-    c.field.friction = {0.2, 0.8, 3};
-    c.field.stiffness = {8e8, 1.6, true};
+    c.field.cross_correlation = 0.5;
+    c.field.data = "/data/cpt.csv";
+    using randomfield::MarginalKind;
+    c.field.friction = {MarginalKind::truncated_normal, 0.2, 0.8, 3, 0.5, 0.2, 0.01, true};
+    c.field.stiffness = {MarginalKind::beta, 1e8, 9e9, 3, 8e8, 1.6, -1e7, true};
     c.triaxial = {200e3, 0.02, 0.05, 9.81};
     c.time = {1e-6, 0.7, 2};
     c.solver = {core::Precision::double_, core::Isa::avx2};

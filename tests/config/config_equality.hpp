@@ -7,6 +7,18 @@
 
 namespace grainfield::triaxial {
 
+inline void expect_equal(const randomfield::MarginalOptions& a,
+                         const randomfield::MarginalOptions& b) {
+    EXPECT_EQ(a.kind, b.kind);
+    EXPECT_EQ(a.minimum, b.minimum);
+    EXPECT_EQ(a.maximum, b.maximum);
+    EXPECT_EQ(a.s, b.s);
+    EXPECT_EQ(a.mean, b.mean);
+    EXPECT_EQ(a.cov, b.cov);
+    EXPECT_EQ(a.mean_gradient, b.mean_gradient);
+    EXPECT_EQ(a.preserve_mean, b.preserve_mean);
+}
+
 inline void expect_equal(const Config& a, const Config& b) {
     EXPECT_EQ(a.grading.sieve_diameter, b.grading.sieve_diameter);
     EXPECT_EQ(a.grading.passing, b.grading.passing);
@@ -31,12 +43,10 @@ inline void expect_equal(const Config& a, const Config& b) {
     EXPECT_EQ(a.field.seed, b.field.seed);
     EXPECT_EQ(a.field.correlation_length, b.field.correlation_length);
     EXPECT_EQ(a.field.stage0_cells, b.field.stage0_cells);
-    EXPECT_EQ(a.field.friction.minimum, b.field.friction.minimum);
-    EXPECT_EQ(a.field.friction.maximum, b.field.friction.maximum);
-    EXPECT_EQ(a.field.friction.s, b.field.friction.s);
-    EXPECT_EQ(a.field.stiffness.mean, b.field.stiffness.mean);
-    EXPECT_EQ(a.field.stiffness.cov, b.field.stiffness.cov);
-    EXPECT_EQ(a.field.stiffness.preserve_mean, b.field.stiffness.preserve_mean);
+    EXPECT_EQ(a.field.cross_correlation, b.field.cross_correlation);
+    EXPECT_EQ(a.field.data, b.field.data);
+    expect_equal(a.field.friction, b.field.friction);
+    expect_equal(a.field.stiffness, b.field.stiffness);
     EXPECT_EQ(a.triaxial.confining_stress, b.triaxial.confining_stress);
     EXPECT_EQ(a.triaxial.strain_rate, b.triaxial.strain_rate);
     EXPECT_EQ(a.triaxial.max_axial_strain, b.triaxial.max_axial_strain);

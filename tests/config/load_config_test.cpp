@@ -135,13 +135,17 @@ TEST_F(LoadConfig, SettingsGoOverTheFileAndLaterOnesOverEarlier) {
     expect_equal(load_config(file, settings), expected);
 }
 
-TEST_F(LoadConfig, LaterKeysOfTheContractAreRefusedNotIgnored) {
-    for (const char* key : {"data = \"a.csv\"", "cross_correlation = 0.5"}) {
-        const auto file = write("later.toml", std::string("[field]\n") + key + "\n");
-        const std::string message = message_of<InputError>([&] { load_config(file); });
-        EXPECT_THAT(message, StartsWith(file.string() + ":2: field." + key));
-        EXPECT_THAT(message, HasSubstr("not available in this version"));
-    }
+// A file's data lie beside it; those of --set in the current folder; a resolved config is the same
+// wherever it is read from.
+TEST_F(LoadConfig, DataAreFoundFromTheFileThatNamesThem) {
+    const auto file = write("a.toml", "[field]\ndata = \"sub/../cpt.csv\"\n");
+    EXPECT_EQ(load_config(file).field.data, (folder_ / "cpt.csv").string());
+    const auto absolute = write("b.toml", "[field]\ndata = \"/data/cpt.csv\"\n");
+    EXPECT_EQ(load_config(absolute).field.data, "/data/cpt.csv");
+    EXPECT_EQ(load_config(file, Overrides{"field.data=cpt.csv"}).field.data,
+              (std::filesystem::current_path() / "cpt.csv").string());
+    EXPECT_EQ(load_config(std::nullopt, Overrides{"field.data=/data/b.csv"}).field.data,
+              "/data/b.csv");
 }
 
 TEST(ConfigValidate, ChecksWhatNoFileChecked) {

@@ -48,7 +48,7 @@ TEST_F(WriteConfig, ReadsLikeTheContract) {
     EXPECT_THAT(text, HasSubstr("\nporosity = 0.4  # of the block\n"));
     EXPECT_THAT(text, HasSubstr("\nnormal_stiffness = 9e8  # Pa\n"));
     EXPECT_THAT(text, HasSubstr("\npassing = [0, 0, 31.47, 90.93, 99.64, 100]  # % by mass\n"));
-    EXPECT_THAT(text, HasSubstr("\n[field.friction]\nminimum = 0.3  # rad\n"));
+    EXPECT_THAT(text, HasSubstr("\n[field.friction]\nminimum = 0.3  # rad: of \"bounded\""));
     EXPECT_THAT(text, HasSubstr("\nstep = \"auto\"  # s, or \"auto\"\n"));
     EXPECT_THAT(text, HasSubstr("\n# spheres is not set  # optional"));
     std::size_t at = 0;

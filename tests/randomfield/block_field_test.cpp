@@ -78,8 +78,9 @@ TEST(BlockField, HoldsTheColumnsThatAreRandom) {
     EXPECT_EQ(both.friction_angle, friction.friction_angle);
     EXPECT_EQ(both.normal_stiffness, stiffness.normal_stiffness);
     EXPECT_NE(both.G, both.G_stiffness);
+    const Marginal angle(FieldOptions().friction, 1.0);
     for (std::size_t c = 0; c < 432; ++c) {
-        EXPECT_EQ(both.friction_angle[c], friction_angle(FrictionMarginal{}, both.G[c]));
+        EXPECT_EQ(both.friction_angle[c], angle(both.G[c]));
         EXPECT_GT(both.normal_stiffness[c], 0.0);
     }
 }
@@ -162,6 +163,37 @@ TEST(BlockField, FrictionAndStiffnessAreUncorrelated) {
         const double product = field.G[200] * field.G_stiffness[200];
         sum += product;
         square += product * product;
+    }
+    EXPECT_LT(std::abs(sum) / std::sqrt(square), 4.9);
+}
+
+// G_stiffness = rho G_friction + sqrt(1 - rho^2) G' with the G' of the stiffness alone.
+TEST(BlockField, CrossCorrelationMixesTheTwoFields) {
+    FieldOptions options = options_of(Variable::both);
+    const BlockField plain = FieldGenerator(GridSpec{}, options).draw(4);
+    for (const double rho : {0.6, -0.3, 1.0, -1.0}) {
+        options.cross_correlation = rho;
+        const BlockField mixed = FieldGenerator(GridSpec{}, options).draw(4);
+        EXPECT_EQ(mixed.G, plain.G);
+        for (std::size_t c = 0; c < 432; ++c)
+            EXPECT_NEAR(mixed.G_stiffness[c],
+                        rho * plain.G[c] + std::sqrt(1.0 - rho * rho) * plain.G_stiffness[c],
+                        1e-15);
+    }
+}
+
+// The mean product of the two fields in a cell against rho gamma; 4.9 is a significance of 1e-6.
+TEST(BlockField, CrossCorrelationIsTheOneAskedFor) {
+    FieldOptions options = options_of(Variable::both, 10.0);
+    options.cross_correlation = -0.7;
+    const FieldGenerator generator(GridSpec{}, options);
+    double sum = 0.0, square = 0.0;
+    const int draws = 2000;
+    for (int k = 0; k < draws; ++k) {
+        const BlockField field = generator.draw(static_cast<std::uint64_t>(k));
+        const double off = field.G[200] * field.G_stiffness[200] + 0.7 * generator.gamma();
+        sum += off;
+        square += off * off;
     }
     EXPECT_LT(std::abs(sum) / std::sqrt(square), 4.9);
 }

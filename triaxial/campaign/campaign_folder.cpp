@@ -45,19 +45,24 @@ std::string machine() {
     return fmt::format("{}, {} threads", name, std::thread::hardware_concurrency());
 }
 
+std::string hash_of(const fs::path& file) {
+    const std::string bytes = core::read_whole_file(file);
+    return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
+}
+
 /// What identifies a campaign, case by case.
 nlohmann::json identity_of(const std::vector<CampaignCase>& cases,
                            const std::optional<fs::path>& packing) {
     nlohmann::json json{{"version", GRAINFIELD_VERSION}, {"cases", nlohmann::json::object()}};
-    if (packing) {
-        const std::string bytes = core::read_whole_file(*packing);
-        json["packing"] = fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
-    }
+    if (packing) json["packing"] = hash_of(*packing);
     for (const CampaignCase& one : cases) {
         const kernels::KernelTable& kernels = core::choose_kernels(one.config.solver);
         json["cases"][one.name] = {
             {"kernels", fmt::format("{}, {}", kernels.isa, kernels.precision)},
             {"config", case_text(one)}};
+        const randomfield::FieldOptions& field = one.config.field;
+        if (!field.data.empty() && field.variable != randomfield::Variable::none)
+            json["cases"][one.name]["data"] = hash_of(field.data);
     }
     return json;
 }
@@ -96,6 +101,9 @@ void compare(const nlohmann::json& there, const nlohmann::json& here, const fs::
         if (other["config"] != one["config"])
             throw differ(
                 fmt::format("case \"{}\": {}", name, difference(other["config"], one["config"])));
+        if (text(other, "data") != text(one, "data"))
+            throw differ(fmt::format(
+                "case \"{}\": the values in the file of field.data were others there", name));
         if (other["kernels"] != one["kernels"])
             throw differ(
                 fmt::format("case \"{}\" is computed there by {}, here by {} (--isa chooses)", name,

@@ -1,34 +1,65 @@
-// `field`: realizations of the random field on the block grid, as a table or an HDF5 file.
+// `field`: realizations of the random field on the block grid, as a table or an HDF5 file, and
+// what they are worth.
 
 #include <fmt/format.h>
 
 #include <chrono>
 #include <filesystem>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "core/errors.hpp"
 #include "randomfield/field_error.hpp"
 #include "randomfield/field_io.hpp"
+#include "randomfield/verification.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/print_row.hpp"
 #include "triaxial/cli/terminal_monitor.hpp"
 #include "triaxial/config/config_keys.hpp"
 #include "triaxial/config/load_config.hpp"
+#include "triaxial/report/field/field_figures.hpp"
+#include "triaxial/report/field/field_report.hpp"
+#include "triaxial/report/field/field_verdicts.hpp"
 
 namespace grainfield::triaxial {
 namespace {
 
 struct Arguments {
     std::optional<std::string> config;
-    std::int64_t realizations = 1;
+    std::optional<std::int64_t> realizations;
     std::string out;
+    bool verify = false;
+
+    [[nodiscard]] bool writes_fields() const {
+        const std::string suffix = std::filesystem::path(out).extension().string();
+        return !verify || suffix == ".csv" || suffix == ".h5";
+    }
+    /// Beside the file of fields, or --out itself.
+    [[nodiscard]] std::filesystem::path report_folder() const {
+        std::filesystem::path path = out;
+        if (writes_fields()) path.replace_filename(path.stem().string() + "-verify");
+        return path;
+    }
 };
+
+constexpr std::int64_t realizations_to_write = 1, realizations_to_verify = 2000;
 
 template <class E, std::size_t n>
 std::string_view name_of(E value, const std::array<Named<E>, n>& names) {
     for (const Named<E>& named : names)
         if (named.value == value) return named.name;
     return "?";
+}
+
+void print_property(const randomfield::FieldGenerator& generator, randomfield::Property property) {
+    if (!generator.options().random(property)) return;
+    const report::DisplayUnit unit = report::display_unit(property);
+    const randomfield::Moments moments = generator.marginals(property).moments();
+    print_row(report::property_name(property),
+              fmt::format("mean {:.6g} {}, deviation {:.6g} {} of a cell, predicted{}",
+                          moments.mean / unit.size, unit.name, moments.deviation / unit.size,
+                          unit.name, generator.conditioning() ? " without data" : ""));
 }
 
 void print_results(const randomfield::FieldGenerator& generator, const Arguments& arguments,
@@ -43,30 +74,68 @@ void print_results(const randomfield::FieldGenerator& generator, const Arguments
     print_row("correlation length",
               fmt::format("{:g}, {:g}, {:g} m", theta.x(), theta.y(), theta.z()));
     print_row("gamma", fmt::format("{:.6f}  variance of a cell's G", generator.gamma()));
-    print_row("E[k]/mu", fmt::format("{:.6f}  mean stiffness of a cell over field.stiffness.mean",
+    print_row("E[k]/mu", fmt::format("{:.6f}  mean stiffness of a cell over that of a point",
                                      generator.stiffness_mean_ratio()));
+    print_property(generator, randomfield::Property::friction_angle);
+    print_property(generator, randomfield::Property::normal_stiffness);
+    if (const auto* conditioning = generator.conditioning())
+        print_row("data", fmt::format("{}: {} cells have values", generator.options().data,
+                                      conditioning->data().size()));
     if (grid.size() <= randomfield::max_error_cells)
         print_row("covariance error",
                   fmt::format("{:.2e}  largest, in units of gamma", generator.covariance_error()));
-    print_row("realizations", fmt::format("{}", arguments.realizations));
+    if (arguments.writes_fields())
+        print_row("realizations",
+                  fmt::format("{}", arguments.realizations.value_or(realizations_to_write)));
     print_row("time", duration_text(seconds));
-    print_row("written", arguments.out);
+    if (arguments.writes_fields()) print_row("written", arguments.out);
+}
+
+void print_verdicts(const std::vector<report::Verdict>& verdicts) {
+    std::size_t outside = 0;
+    for (const report::Verdict& verdict : verdicts) {
+        fmt::print("{:<40}{:<9}{}\n", verdict.check, verdict.inside ? "inside" : "OUTSIDE",
+                   verdict.finding);
+        outside += verdict.inside ? 0 : 1;
+    }
+    print_row("verdict", outside == 0 ? "every check is inside its band"
+                                      : fmt::format("{} of {} checks are OUTSIDE their band",
+                                                    outside, verdicts.size()));
+}
+
+void verify_field(const randomfield::FieldGenerator& generator, const Arguments& arguments,
+                  core::Monitor& monitor) {
+    const auto count =
+        static_cast<std::uint64_t>(arguments.realizations.value_or(realizations_to_verify));
+    monitor.begin(fmt::format("verifying with {} realizations", count));
+    const randomfield::Verification verification = randomfield::verify(generator, count);
+    monitor.begin("drawing the pictures");
+    const auto page = write_field_report(arguments.report_folder(), generator, verification);
+    print_row("verified with", fmt::format("{} realizations", count));
+    print_verdicts(report::verdicts(generator, verification));
+    print_row("report", page.string());
 }
 
 void run_field(const Arguments& arguments, Session& session) {
     const Config config = load_config(arguments.config, session.settings);
-    if (arguments.realizations < 1)
-        throw InputError(fmt::format("--realizations = {}: must be a whole number >= 1",
-                                     arguments.realizations));
+    const std::int64_t count = arguments.realizations.value_or(realizations_to_write);
+    if (count < 1)
+        throw InputError(fmt::format("--realizations = {}: must be a whole number >= 1", count));
+    if (arguments.verify && std::cmp_less(arguments.realizations.value_or(realizations_to_verify),
+                                          randomfield::least_realizations))
+        throw InputError(fmt::format("--realizations = {}: --verify needs at least {}", count,
+                                     randomfield::least_realizations));
     const auto start = std::chrono::steady_clock::now();
     session.monitor.begin("drawing the field");
     const randomfield::FieldGenerator generator({config.packing.blocks, config.packing.block},
                                                 config.field);
-    randomfield::write_fields(arguments.out, generator,
-                              static_cast<std::uint64_t>(arguments.realizations),
-                              {config.particle.friction_angle, config.particle.normal_stiffness});
+    if (arguments.writes_fields())
+        randomfield::write_fields(
+            arguments.out, generator, static_cast<std::uint64_t>(count),
+            {config.particle.friction_angle, config.particle.normal_stiffness});
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     print_results(generator, arguments, seconds.count());
+    if (arguments.verify) verify_field(generator, arguments, session.monitor);
 }
 
 }  // namespace
@@ -78,8 +147,18 @@ void add_field_command(CLI::App& app, CommandLine& line) {
         "grainfield field --set field.variable=friction --realizations 3 --out field.csv",
         [arguments](Session& session) { run_field(*arguments, session); }, OnSignal::end_at_once);
     command.add_option("config", arguments->config, "Config (TOML); without one the paper's case");
-    command.add_option("--realizations", arguments->realizations, "How many, 1 unless given");
-    command.add_option("--out", arguments->out, "File to write, .csv or .h5")->required();
+    command.add_option("--realizations", arguments->realizations,
+                       "How many, 1 unless given; to verify with 2000");
+    command
+        .add_option("--out", arguments->out,
+                    "File to write, .csv or .h5; with --verify a folder, or such a file, and "
+                    "the folder NAME-verify beside it")
+        ->required();
+    command.add_flag("--verify", arguments->verify,
+                     "Holds realizations against the exact correlation, distribution and variance: "
+                     "prints what is inside its band and what is not, and writes "
+                     "verification.html with pictures, correlation.csv, histogram.csv, "
+                     "variance.csv");
 }
 
 }  // namespace grainfield::triaxial

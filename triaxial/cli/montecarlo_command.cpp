@@ -12,6 +12,7 @@
 #include "triaxial/campaign/progress.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/print_row.hpp"
+#include "triaxial/test/sample.hpp"
 
 namespace grainfield::triaxial {
 namespace {
@@ -66,6 +67,7 @@ void run_montecarlo(const Arguments& arguments, Session& session) {
     options.threads = session.threads;
     options.abreast = arguments.abreast;
     if (arguments.packing) options.packing = *arguments.packing;
+    for (const CampaignCase& one : cases) check_field_data(one.config);
     for (const CampaignCase& one : cases)
         if (one.config.field.variable == randomfield::Variable::none &&
             one.config.montecarlo.realizations > 1)

@@ -86,6 +86,7 @@ void run_triaxial(const Arguments& arguments, Session& session) {
     if (arguments.realization < 0)
         throw InputError(
             fmt::format("--realization = {}: must be a whole number >= 0", arguments.realization));
+    check_field_data(config);
     const kernels::KernelTable& kernels = core::choose_kernels(config.solver);
     const fs::path out = arguments.out;
     core::create_folder(out);

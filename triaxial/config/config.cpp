@@ -19,7 +19,7 @@ void Config::validate() const {
     }
     grading.validate();
     packing.validate();
-    field.validate();
+    field.validate({packing.blocks, packing.block});
 }
 
 }  // namespace grainfield::triaxial

@@ -36,32 +36,6 @@ void add_keys(Keys& keys, WallOptions& wall) {
     keys.push_back({"wall.poisson_ratio", slot(poisson_ratio, ratio), "ks/kn of the box"});
 }
 
-void add_keys(Keys& keys, randomfield::FieldOptions& field) {
-    auto& [variable, method, correlation, seed, correlation_length, stage0_cells, friction,
-           stiffness] = field;
-    auto& [minimum, maximum, s] = friction;
-    auto& [mean, cov, preserve_mean] = stiffness;
-    keys.push_back({"field.variable", slot(variable, variable_names),
-                    "\"none\", \"friction\", \"stiffness\", \"both\""});
-    keys.push_back({"field.method", slot(method, method_names),
-                    "\"las\", \"las-classic\", \"cholesky\", \"circulant\""});
-    keys.push_back({"field.correlation", slot(correlation, correlation_names),
-                    "\"markov\", \"separable-markov\", \"gaussian\", \"spherical\", \"matern32\", "
-                    "\"matern52\""});
-    keys.push_back({"field.seed", slot(seed, 0), "of the field's normals"});
-    keys.push_back(
-        {"field.correlation_length", slot(correlation_length, positive), "m: theta x, y, z"});
-    keys.push_back({"field.stage0_cells", slot(stage0_cells, 1),
-                    "optional: largest stage 0 of the subdivision, in cells"});
-    keys.push_back({"field.friction.minimum", slot(minimum, below_right_angle), "rad"});
-    keys.push_back({"field.friction.maximum", slot(maximum, below_right_angle), "rad"});
-    keys.push_back({"field.friction.s", slot(s, positive), "variability factor"});
-    keys.push_back({"field.stiffness.mean", slot(mean, positive), "Pa"});
-    keys.push_back({"field.stiffness.cov", slot(cov, positive), "coefficient of variation"});
-    keys.push_back({"field.stiffness.preserve_mean", slot(preserve_mean),
-                    "rescale so that cells have this mean, not less"});
-}
-
 void add_keys(Keys& keys, TriaxialOptions& triaxial) {
     auto& [confining_stress, strain_rate, max_axial_strain, gravity] = triaxial;
     keys.push_back({"triaxial.confining_stress", slot(confining_stress, positive), "Pa"});

@@ -36,6 +36,14 @@ inline constexpr std::array correlation_names{
     Named<randomfield::Correlation>{randomfield::Correlation::spherical, "spherical"},
     Named<randomfield::Correlation>{randomfield::Correlation::matern32, "matern32"},
     Named<randomfield::Correlation>{randomfield::Correlation::matern52, "matern52"}};
+inline constexpr std::array marginal_names{
+    Named<randomfield::MarginalKind>{randomfield::MarginalKind::bounded, "bounded"},
+    Named<randomfield::MarginalKind>{randomfield::MarginalKind::lognormal, "lognormal"},
+    Named<randomfield::MarginalKind>{randomfield::MarginalKind::normal, "normal"},
+    Named<randomfield::MarginalKind>{randomfield::MarginalKind::truncated_normal,
+                                     "truncated-normal"},
+    Named<randomfield::MarginalKind>{randomfield::MarginalKind::beta, "beta"},
+    Named<randomfield::MarginalKind>{randomfield::MarginalKind::weibull, "weibull"}};
 
 /// All keys in the order of interface.md. They refer to `config`, which must outlive them.
 Keys config_keys(Config& config);
@@ -45,5 +53,7 @@ void add_keys(Keys& keys, ParticleOptions& particle);
 void add_keys(Keys& keys, core::Damping& damping);
 void add_keys(Keys& keys, core::TimeOptions& time);
 void add_keys(Keys& keys, core::SolverOptions& solver);
+/// The tables [field], [field.friction] and [field.stiffness].
+void add_keys(Keys& keys, randomfield::FieldOptions& field);
 
 }  // namespace grainfield::triaxial

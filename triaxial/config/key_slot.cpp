@@ -171,6 +171,14 @@ Slot text_slot(std::string& target, std::string expected) {
             [&target] { return value_of(target); }};
 }
 
+Slot optional_text_slot(std::string& target, std::string expected) {
+    Slot slot = text_slot(target, std::move(expected));
+    slot.get = [&target] {
+        return target.empty() ? std::nullopt : std::optional(value_of(target));
+    };
+    return slot;
+}
+
 Slot slot(std::string& target, std::span<const std::string_view> texts) {
     return {choice_text(texts),
             [&target, texts](const TomlValue& value) {

@@ -74,6 +74,8 @@ Slot slot(Vec3& target, const Range& allowed);
 Slot slot(std::array<std::int32_t, 3>& target, std::int64_t lowest);
 Slot slot_or_auto(std::optional<double>& target, const Range& allowed);  ///< unset: "auto"
 Slot text_slot(std::string& target, std::string expected);               ///< any but empty text
+/// Any but empty text in a file; unset where the target is empty.
+Slot optional_text_slot(std::string& target, std::string expected);
 /// One of some texts; `texts` must outlive the slot.
 Slot slot(std::string& target, std::span<const std::string_view> texts);
 /// What the two templates below have in common. set gets a value in range; get: nullopt is unset.

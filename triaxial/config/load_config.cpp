@@ -17,13 +17,22 @@ TomlValue read_root(const std::optional<std::filesystem::path>& file,
     return root;
 }
 
+/// A file named in a config is looked for beside it, one of --set in the current folder; the whole
+/// path is kept, so that a resolved config means the same file wherever it is read.
+std::string located_file(const std::string& name, const TomlValue& value,
+                         const std::string& source) {
+    const bool in_file = !source.empty() && value.origin.starts_with(source);
+    const auto folder = in_file ? std::filesystem::path(source).parent_path() : "";
+    return std::filesystem::absolute(folder / name).lexically_normal().string();
+}
+
 /// The config of a tree, and the cases of its campaign.
 Config read_config(const TomlValue& root, const std::string& source, std::vector<CaseKeys>& cases) {
     TomlReader reader(root, source);
     Config config;
     for (const ConfigKey& key : config_keys(config)) reader.read(key);
-    for (const char* later : {"field.cross_correlation", "field.data"})
-        reader.refuse(later, "not available in this version");
+    if (const TomlValue* data = reader.take("field.data"))
+        config.field.data = located_file(config.field.data, *data, source);
     cases = read_campaign(reader);
     reader.finish();
     try {

@@ -65,6 +65,12 @@ Sample sample_of(core::SphereFile file, const std::filesystem::path& path) {
     return sample;
 }
 
+void check_field_data(const Config& config) {
+    if (config.field.data.empty() || config.field.variable == randomfield::Variable::none) return;
+    const randomfield::FieldGenerator reads({config.packing.blocks, config.packing.block},
+                                            config.field);
+}
+
 FieldRecord map_field(const Config& config, std::int64_t realization, Sample& sample) {
     FieldRecord record;
     record.variable = config.field.variable;
@@ -99,8 +105,9 @@ FieldRecord map_field(const Config& config, std::int64_t realization, Sample& sa
     randomfield::BlockField::map(record.field.normal_stiffness, cell, s.normal_stiffness);
     if (const auto& k = record.field.normal_stiffness; !k.empty()) {
         record.mean_ratio_expected = generator.stiffness_mean_ratio();
-        record.mean_ratio_cells = std::accumulate(k.begin(), k.end(), 0.0) /
-                                  static_cast<double>(k.size()) / config.field.stiffness.mean;
+        record.mean_ratio_cells =
+            std::accumulate(k.begin(), k.end(), 0.0) / static_cast<double>(k.size()) /
+            generator.marginals(randomfield::Property::normal_stiffness).point_mean();
     }
     return record;
 }

@@ -21,13 +21,17 @@ core::SphereFile read_packing(const std::filesystem::path& path, const Config& c
 /// of its contacts. Throws FileError where these are damaged.
 Sample sample_of(core::SphereFile file, const std::filesystem::path& path);
 
+/// Reads the data that the field is conditioned on, where there are any, before anything else takes
+/// time over them. Throws InputError, FileError as randomfield::FieldGenerator.
+void check_field_data(const Config& config);
+
 /// What the random field did to the sample, for summary.json.
 struct FieldRecord {
     randomfield::Variable variable = randomfield::Variable::none;
     std::int64_t realization = 0;
     double gamma = 0;                        ///< variance of a cell's G [-]
     std::optional<double> covariance_error;  ///< of the generator, in gamma [-]
-    double mean_ratio_expected = 1;          ///< E[k]/mu (stiffness) [-]
+    double mean_ratio_expected = 1;          ///< E[k]/mu (stiffness), before any data [-]
     double mean_ratio_cells = 1;             ///< of this realization's cells [-]
     randomfield::BlockField field;           ///< empty without a random variable
 };

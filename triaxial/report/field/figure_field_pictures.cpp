@@ -1,0 +1,143 @@
+// Pictures of a realization: slices, and the blocks from outside.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "triaxial/report/box_frame.hpp"
+#include "triaxial/report/field/field_figures.hpp"
+#include "triaxial/report/text.hpp"
+
+namespace grainfield::triaxial::report {
+namespace {
+
+using randomfield::GridSpec;
+
+std::string image(const std::string& png, PictureSize size, const std::string& words) {
+    return fmt::format(
+        "<img alt=\"{}\" width=\"{}\" height=\"{}\" src=\"data:image/png;base64,{}\">",
+        escape(words), size.width, size.height, base64(png));
+}
+
+/// One sphere a cell with the cell's properties, for Colouring.
+core::ParticleStore spheres_of(const randomfield::BlockField& field) {
+    core::ParticleStore store;
+    store.resize(field.G.size());
+    std::ranges::copy(field.friction_angle, store.friction_angle.begin());
+    std::ranges::copy(field.normal_stiffness, store.normal_stiffness.begin());
+    return store;
+}
+
+/// A face of a cell, which lies in a face of the box: normal to `axis`, at its upper end.
+struct Face {
+    Eigen::Index axis;
+    double light;
+};
+constexpr Face faces[]{{0, 0.86}, {1, 1.0}, {2, 0.95}};  // right, top, front, as sample_view.cpp
+
+std::string polygon(const Camera& camera, const Vec3& lower, const Vec3& size, const Face& face,
+                    const Rgb& colour) {
+    const Eigen::Index u = (face.axis + 1) % 3, v = (face.axis + 2) % 3;
+    std::string text = "set object polygon from ";
+    constexpr double corner[][2]{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
+    bool first = true;
+    for (const auto& [a, b] : corner) {
+        Vec3 p = lower;
+        p[face.axis] += size[face.axis];
+        p[u] += a * size[u];
+        p[v] += b * size[v];
+        text += fmt::format("{}{:.5f},{:.5f}", first ? "" : " to ", camera.right(p), camera.up(p));
+        first = false;
+    }
+    return fmt::format("{} fc rgb '#{:06x}' fs solid border lc rgb '#a0384048' lw 0.6\n", text,
+                       colour.times(face.light).packed());
+}
+
+}  // namespace
+
+Figure slices_figure(const Gnuplot& gnuplot, const std::string& id, const GridSpec& grid,
+                     std::span<const double> values, const std::string& label,
+                     const std::string& caption) {
+    const auto [nx, ny, nz] = grid.cells;
+    const Vec3& edge = grid.cell_size;
+    const double width = nx * edge.x(), height = ny * edge.y();
+    const std::int32_t panels = std::min(nz, 6);
+    const double pace = width * 1.12;
+    std::string rows, script;
+    for (std::int32_t panel = 0; panel < panels; ++panel) {
+        const std::int32_t k = panels == 1 ? 0 : panel * (nz - 1) / (panels - 1);
+        for (std::int32_t j = 0; j < ny; ++j)
+            for (std::int32_t i = 0; i < nx; ++i) {
+                const double x = panel * pace + i * edge.x(), y = j * edge.y();
+                const double value = values[grid.index(i, j, k)];
+                if (std::isnan(value)) continue;
+                rows += fmt::format("{} {} {} {} {} {} {}\n", x + edge.x() / 2, y + edge.y() / 2, x,
+                                    x + edge.x(), y, y + edge.y(), value);
+            }
+        script += fmt::format(
+            "set label '{{/:Italic z}} = {} m' at {},{} center offset 0,0.8 tc rgb '{}'\n",
+            significant((k + 0.5) * edge.z(), 3), panel * pace + width / 2, height, colour::ink);
+    }
+    gnuplot.data(id + ".dat", rows);
+    const double total = pace * panels - 0.12 * width;
+    constexpr double plot_height = 420;  // [px]
+    const double pixels = std::clamp(plot_height * total / height, 200.0, 1300.0);
+    const PictureSize size{static_cast<int>(pixels) + 320,
+                           static_cast<int>(pixels * height / total) + 90};
+    script += fmt::format(
+        R"(set size ratio -1
+unset border
+unset grid
+unset xtics
+set ytics nomirror out scale 0.4
+set ylabel '{{/:Italic y}} (m)' offset 1.5,0
+unset key
+set lmargin at screen {left}
+set rmargin at screen {right}
+set tmargin at screen {top}
+set bmargin at screen 0.05
+set xrange [0:{total}]
+set yrange [0:{height}]
+set palette {palette}
+set cblabel '{label}' offset 0.8,0
+set colorbox user origin screen {bar},0.2 size screen {bar_width},0.55 noborder
+set style fill solid noborder
+plot '{id}.dat' using 1:2:3:4:5:6:7 with boxxyerror lc palette
+)",
+        fmt::arg("left", 120.0 / size.width), fmt::arg("right", 1.0 - 200.0 / size.width),
+        fmt::arg("bar", 1.0 - 185.0 / size.width), fmt::arg("bar_width", 22.0 / size.width),
+        fmt::arg("top", 1.0 - 55.0 / size.height), fmt::arg("total", total),
+        fmt::arg("height", height), fmt::arg("palette", Colouring::gnuplot_palette()),
+        fmt::arg("label", label), fmt::arg("id", id));
+    return {image(gnuplot.png(id, size, script), size, caption), caption};
+}
+
+Figure blocks_figure(const Gnuplot& gnuplot, const std::string& id,
+                     const randomfield::BlockField& field, randomfield::Property property) {
+    const bool friction = property == randomfield::Property::friction_angle;
+    const core::ParticleStore cells = spheres_of(field);
+    const Colouring colouring(cells, friction ? ColourBy::friction : ColourBy::stiffness);
+    const GridSpec& grid = field.grid;
+    const auto [nx, ny, nz] = grid.cells;
+    const core::Box box{Vec3::Zero(), Vec3(nx, ny, nz).cwiseProduct(grid.cell_size)};
+    const Camera camera;
+    const BoxFrame frame = box_frame(box, camera, colouring);
+    std::string script = frame.script;
+    for (const Face& face : faces) {
+        const auto axis = static_cast<std::size_t>(face.axis);
+        randomfield::CellCount first{0, 0, 0};
+        first[axis] = grid.cells[axis] - 1;
+        for (std::int32_t k = first[2]; k < nz; ++k)
+            for (std::int32_t j = first[1]; j < ny; ++j)
+                for (std::int32_t i = first[0]; i < nx; ++i)
+                    script += polygon(camera, Vec3(i, j, k).cwiseProduct(grid.cell_size),
+                                      grid.cell_size, face, colouring.colour(grid.index(i, j, k)));
+    }
+    script += "plot " + frame.scale + "\n";
+    const std::string words =
+        fmt::format("The blocks of realization 0 from outside, {}", colouring.in_words());
+    return {image(gnuplot.png(id, frame.size, script), frame.size, words), words + "."};
+}
+
+}  // namespace grainfield::triaxial::report
