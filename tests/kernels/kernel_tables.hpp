@@ -62,7 +62,7 @@ class KernelTest : public testing::TestWithParam<KernelCase> {
 
 }  // namespace grainfield::kernels
 
-#define GRAINFIELD_FOR_ALL_KERNELS(suite)                                            \
-    INSTANTIATE_TEST_SUITE_P(Kernels, suite,                                         \
-                             testing::ValuesIn(grainfield::kernels::kernel_cases()), \
+#define GRAINFIELD_FOR_ALL_KERNELS(suite)                                              \
+    INSTANTIATE_TEST_SUITE_P(Kernels, suite,                                           \
+                             ::testing::ValuesIn(grainfield::kernels::kernel_cases()), \
                              [](const auto& test_info) { return test_info.param.name; })

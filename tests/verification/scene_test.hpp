@@ -78,6 +78,7 @@ class SceneTest : public testing::TestWithParam<SolverCase> {
 
 }  // namespace grainfield::verify
 
-#define GRAINFIELD_FOR_ALL_SOLVERS(suite)                                                          \
-    INSTANTIATE_TEST_SUITE_P(Scenes, suite, testing::ValuesIn(grainfield::verify::solver_cases()), \
+#define GRAINFIELD_FOR_ALL_SOLVERS(suite)                                             \
+    INSTANTIATE_TEST_SUITE_P(Scenes, suite,                                           \
+                             ::testing::ValuesIn(grainfield::verify::solver_cases()), \
                              [](const auto& test_info) { return test_info.param.name; })
