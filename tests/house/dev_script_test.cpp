@@ -147,6 +147,7 @@ TEST_F(DevScript, TestsCanBeChosen) {
 TEST_F(DevScript, VerifyWritesThePageFromATestRunOnly) {
     const std::string first =
         "cmake --preset release\ncmake --build --preset release -j\n"
+        "cmake -E rm -rf build/release/verification\n"
         "ctest --preset release -L ^verify$ -j 2 --no-tests=error\n";
     tool("ctest", record + "; exit 8");
     EXPECT_EQ(run("dev", "verify"), 8) << output();

@@ -62,9 +62,8 @@ class Writer : public testing::EmptyTestEventListener {
 }  // namespace
 
 void record(const Case& row, const std::string& kernel, double expected, double computed,
-            double tolerance, std::source_location where) {
-    const testing::ScopedTrace trace(where.file_name(), static_cast<int>(where.line()),
-                                     row.scene + ": " + row.quantity + ", " + kernel);
+            double tolerance, const char* file, int line) {
+    const testing::ScopedTrace trace(file, line, row.scene + ": " + row.quantity + ", " + kernel);
     EXPECT_NEAR(computed, expected, tolerance);
     if (records_folder() == nullptr) {
         EXPECT_TRUE(page_has(row)) << "tests/VERIFICATION.md lacks this row: run `./dev verify`";

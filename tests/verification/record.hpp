@@ -2,7 +2,6 @@
 // A check that is also a row of tests/VERIFICATION.md: what a case should give by its closed form,
 // what came out, and how far apart they may be. Any test program may record.
 
-#include <source_location>
 #include <string>
 
 namespace grainfield::verify {
@@ -24,8 +23,8 @@ struct Case {
 /// case's unit, and unless the committed page has the case's row. Where the environment variable
 /// GRAINFIELD_VERIFICATION names a folder, the test's records are written there instead of being
 /// looked up, as one JSON file a test.
-/// `kernel` is the name of a KernelCase, or "any" where the kernels play no part.
+/// `kernel` is the name of a KernelCase (or SolverCase), or "any" where the kernels play no part.
 void record(const Case& row, const std::string& kernel, double expected, double computed,
-            double tolerance, std::source_location where = std::source_location::current());
+            double tolerance, const char* file = __builtin_FILE(), int line = __builtin_LINE());
 
 }  // namespace grainfield::verify
