@@ -3,6 +3,7 @@
 
 #include "core/frequency.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -12,6 +13,7 @@
 
 #include "core/step_control.hpp"
 #include "tests/core/test_scenes.hpp"
+#include "tests/verification/record.hpp"
 
 namespace grainfield::core {
 namespace {
@@ -174,7 +176,14 @@ TEST_P(Frequency, FreeFccBlocksApproachTheInfiniteLatticeFromBelow) {
             EXPECT_GT(omega, last * 0.999);
             last = omega;
         }
-        EXPECT_NEAR(2 / last, bound, 0.03 * bound) << lambda;
+        verify::record(
+            {.scene = "Time step of an FCC lattice",
+             .quantity = fmt::format("stability limit of 8^3 cells, lambda = {}", lambda),
+             .closed_form = "sqrt(m/K_n) min(1/sqrt(2 (1 + lambda)), sqrt(0.1/lambda))",
+             .source = "highest mode of the infinite lattice",
+             .unit = "s",
+             .tolerance = "a free block approaches it from above"},
+            GetParam().name, bound, 2 / last, 0.03 * bound);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/neighbour_search.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "tests/core/test_scenes.hpp"
+#include "tests/verification/record.hpp"
 
 namespace grainfield::core {
 namespace {
@@ -40,9 +42,18 @@ std::vector<kernels::Pair> all_pairs(const Cloud& cloud, double skin) {
 
 /// Equality covers order (by i, then j) and uniqueness: all_pairs has both.
 void expect_same(const Cloud& cloud, const std::string& name) {
-    for (double skin : {0.0, 0.003, 0.1})
-        EXPECT_EQ(find_pairs(cloud.position, cloud.radius, skin), all_pairs(cloud, skin))
-            << name << ", skin " << skin;
+    for (double skin : {0.0, 0.003, 0.1}) {
+        const auto found = find_pairs(cloud.position, cloud.radius, skin);
+        const auto all = all_pairs(cloud, skin);
+        EXPECT_EQ(found, all) << name << ", skin " << skin;
+        verify::record(
+            {.scene = "Neighbour search",
+             .quantity = fmt::format("pairs of {} spheres, {}, skin {}", cloud.size(), name, skin),
+             .closed_form = "all pairs, one by one",
+             .source = "O(N^2)",
+             .tolerance = "none"},
+            "any", static_cast<double>(all.size()), static_cast<double>(found.size()), 0);
+    }
 }
 
 /// Radius between r and 20 r, many small ones.

@@ -66,7 +66,8 @@ class DevScript : public testing::Test {
 
 TEST_F(DevScript, HelpNamesEveryCommand) {
     EXPECT_EQ(run("dev", "help"), 0);
-    for (const char* command : {"run", "test", "build", "bench", "crosscheck", "format", "lint"})
+    for (const char* command :
+         {"run", "test", "verify", "build", "bench", "crosscheck", "format", "lint"})
         EXPECT_THAT(output(), HasSubstr("\n  " + std::string(command) + " "));
 }
 
@@ -153,6 +154,24 @@ TEST_F(DevScript, TestsCanBeChosen) {
     EXPECT_THAT(calls(), Not(HasSubstr("asan")));
     EXPECT_EQ(run("dev", "test --all"), 0) << output();
     EXPECT_THAT(calls(), HasSubstr("ctest --preset release -LE ^unit$\n"));
+}
+
+TEST_F(DevScript, VerifyWritesThePageFromATestRunOnly) {
+    const std::string first =
+        "cmake --preset release\ncmake --build --preset release -j\n"
+        "cmake -E rm -rf build/release/verification\n"
+        "ctest --preset release -L ^verify$ -j 2 --no-tests=error\n";
+    tool("ctest", record + "; exit 8");
+    EXPECT_EQ(run("dev", "verify"), 8) << output();
+    EXPECT_EQ(calls(), first);
+
+    fs::remove(folder / "calls");
+    tool("ctest", record + "; echo \"in $GRAINFIELD_VERIFICATION\"");
+    EXPECT_EQ(run("dev", "verify"), 0) << output();
+    EXPECT_EQ(calls(), first +
+                           "cmake --preset release\n"
+                           "cmake --build --preset release --target verification_page -j\n");
+    EXPECT_THAT(output(), HasSubstr("in " GRAINFIELD_SOURCE_DIR "/build/release/verification\n"));
 }
 
 TEST_F(DevScript, FailsWithAnyTestAndStillRunsTheOthers) {
