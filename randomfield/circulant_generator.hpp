@@ -35,8 +35,9 @@ class CirculantGenerator final : public Generator {
     [[nodiscard]] std::size_t normals() const override { return 2 * amplitude_.size(); }
     [[nodiscard]] bool exact() const override { return true; }
     /// Largest |M M^T - C| in units of gamma, of all pairs of cells at once: both depend on the lag
-    /// only. Quick where randomfield::covariance_error() is not [-].
+    /// only [-].
     [[nodiscard]] double covariance_error() const;
+    [[nodiscard]] std::optional<double> known_error() const override { return covariance_error(); }
     /// Cells of the period in each direction.
     [[nodiscard]] const CellCount& period() const { return period_; }
 

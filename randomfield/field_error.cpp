@@ -60,6 +60,10 @@ Eigen::MatrixXd exact_covariance(const GridSpec& grid, const CorrelationModel& c
 
 CovarianceError covariance_error(const Generator& generator) {
     const GridSpec& grid = generator.grid();
+    if (const auto known = generator.known_error())
+        return {.covariance = *known,
+                .variance = *known,
+                .variances = std::vector<double>(grid.size(), 1.0)};
     const Eigen::MatrixXd map = linear_map(generator);
     const LocalAverageCovariance of_lag(grid.cell_size, generator.correlation(), grid.cells);
     const Eigen::Index n = map.rows();

@@ -11,7 +11,7 @@ namespace grainfield::randomfield {
 
 /// Largest grid that is looked at without being asked to: a second or two [cells].
 inline constexpr std::size_t max_error_cells = 2048;
-/// Largest grid of covariance_error(): a minute or two and 0.6 GB, more with circulant [cells].
+/// Largest grid of covariance_error(): a minute or two and 0.6 GB [cells].
 inline constexpr std::size_t max_slow_error_cells = 8192;
 
 /// M, one row a cell and one column a normal. InputError above max_slow_error_cells.

@@ -31,6 +31,9 @@ class Generator {
     [[nodiscard]] virtual bool exact() const = 0;
     /// Number of subdivisions between stage 0 and the field; 0 where nothing is subdivided [-].
     [[nodiscard]] virtual std::size_t subdivisions() const { return 0; }
+    /// Largest |M M^T - C| in units of gamma where the generator's own algebra gives it at little
+    /// cost [-].
+    [[nodiscard]] virtual std::optional<double> known_error() const { return {}; }
 
     [[nodiscard]] const GridSpec& grid() const { return grid_; }
     [[nodiscard]] const CorrelationModel& correlation() const { return correlation_; }

@@ -76,9 +76,11 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
                     hn::Min(PerSphere ? v.w : set<T>(p.uniform_friction), set<T>(wall.friction));
                 const ShearLanes<T> spring =
                     load_shear<T, Sums>(motion, gap_before, overlap, ks, hn::Mul(friction, fn));
-                store4<T>({hn::IfThenElseZero(touching, spring.shear.x),
-                           hn::IfThenElseZero(touching, spring.shear.y),
-                           hn::IfThenElseZero(touching, spring.shear.z), zero},
+                // One that has just opened keeps its spring for the ledger, below.
+                const Lane3<T> kept = load4<T>(history, 0).xyz();
+                store4<T>({hn::IfThenElse(touching, spring.shear.x, kept.x),
+                           hn::IfThenElse(touching, spring.shear.y, kept.y),
+                           hn::IfThenElse(touching, spring.shear.z, kept.z), zero},
                           history_to, 0);
                 const Lane3<T> shear{hn::IfThenElseZero(touching, spring.shear.x),
                                      hn::IfThenElseZero(touching, spring.shear.y),
