@@ -21,7 +21,6 @@
 #include "core/files/atomic_file.hpp"
 #include "core/random.hpp"
 #include "kernels/vector/vector_tables.hpp"
-#include "randomfield/circulant_generator.hpp"
 #include "randomfield/covariance.hpp"
 #include "randomfield/field_error.hpp"
 #include "randomfield/generator.hpp"
@@ -89,9 +88,7 @@ double median_seconds(double budget, const Action& action) {
 
 /// What can be computed without sampling in reasonable time.
 std::optional<double> known_error(const randomfield::Generator& generator) {
-    if (const auto* circulant = dynamic_cast<const randomfield::CirculantGenerator*>(&generator)) {
-        return circulant->covariance_error();
-    }
+    if (const auto known = generator.known_error()) return known;
     if (generator.grid().size() > 4096) return std::nullopt;
     return randomfield::covariance_error(generator).covariance;
 }

@@ -173,7 +173,7 @@ CirculantGenerator::CirculantGenerator(const GridSpec& grid, const CorrelationMo
 
 CirculantGenerator::~CirculantGenerator() = default;
 
-double CirculantGenerator::covariance_error() const {
+std::optional<double> CirculantGenerator::known_error() const {
     // The transform of the amplitudes' squares is the covariance around the period.
     const Buffer data(fftw_alloc_real(2 * amplitude_.size()));
     for (std::size_t e = 0; e < amplitude_.size(); ++e) {

@@ -36,8 +36,7 @@ class CirculantGenerator final : public Generator {
     [[nodiscard]] bool exact() const override { return true; }
     /// Largest |M M^T - C| in units of gamma, of all pairs of cells at once: both depend on the lag
     /// only [-].
-    [[nodiscard]] double covariance_error() const;
-    [[nodiscard]] std::optional<double> known_error() const override { return covariance_error(); }
+    [[nodiscard]] std::optional<double> known_error() const override;
     /// Cells of the period in each direction.
     [[nodiscard]] const CellCount& period() const { return period_; }
 

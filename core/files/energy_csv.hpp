@@ -18,4 +18,16 @@ inline std::array<double, 8> energy_columns(const Energy& e) {
             e.friction_work, e.damping_work, 0.0 - e.external_work, e.gravity};
 }
 
+/// energy_columns() undone.
+inline Energy energy_of_columns(const std::array<double, 8>& c) {
+    return {.kinetic = c[0],
+            .rotational = c[1],
+            .elastic_normal = c[2],
+            .elastic_shear = c[3],
+            .friction_work = c[4],
+            .damping_work = c[5],
+            .external_work = -c[6],
+            .gravity = c[7]};
+}
+
 }  // namespace grainfield::core

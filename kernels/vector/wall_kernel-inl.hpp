@@ -67,8 +67,9 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
             Lane3<T> force = scaled(fn, normal);
             if constexpr (Friction) {
                 const Lane3<T> velocity = wall_velocity - v.xyz();
-                const TangentialLanes<T> motion = plane_motion<T>(outward, u.w, velocity, w.xyz(),
-                                                                  load4<T>(history, 0).xyz(), step);
+                const Lane3<T> before = load4<T>(history, 0).xyz();
+                const TangentialLanes<T> motion =
+                    plane_motion<T>(outward, u.w, velocity, w.xyz(), before, step);
                 const auto gap_before = hn::MulSub(step, dot(velocity, normal), overlap);
                 const auto ks_sphere = hn::Mul(set<T>(p.stiffness_ratio), k_sphere);
                 const auto ks = springs ? contact_stiffness<T>(u.w, ks_sphere, ks_wall) : zero;
@@ -77,10 +78,9 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
                 const ShearLanes<T> spring =
                     load_shear<T, Sums>(motion, gap_before, overlap, ks, hn::Mul(friction, fn));
                 // One that has just opened keeps its spring for the ledger, below.
-                const Lane3<T> kept = load4<T>(history, 0).xyz();
-                store4<T>({hn::IfThenElse(touching, spring.shear.x, kept.x),
-                           hn::IfThenElse(touching, spring.shear.y, kept.y),
-                           hn::IfThenElse(touching, spring.shear.z, kept.z), zero},
+                store4<T>({hn::IfThenElse(touching, spring.shear.x, before.x),
+                           hn::IfThenElse(touching, spring.shear.y, before.y),
+                           hn::IfThenElse(touching, spring.shear.z, before.z), zero},
                           history_to, 0);
                 const Lane3<T> shear{hn::IfThenElseZero(touching, spring.shear.x),
                                      hn::IfThenElseZero(touching, spring.shear.y),

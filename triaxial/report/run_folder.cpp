@@ -4,6 +4,8 @@
 
 #include <toml++/toml.h>
 
+#include <array>
+
 #include "core/errors.hpp"
 #include "core/files/energy_csv.hpp"
 #include "core/files/sphere_file.hpp"
@@ -47,16 +49,11 @@ std::vector<core::EnergyRow> read_energies(const std::filesystem::path& path) {
     if (!std::filesystem::exists(path)) return {};  // of an earlier version
     const auto columns = read_number_table(path, core::energy_header);
     std::vector<core::EnergyRow> rows(columns[0].size());
-    for (std::size_t r = 0; r < rows.size(); ++r)
-        rows[r] = {columns[0][r],
-                   {.kinetic = columns[1][r],
-                    .rotational = columns[2][r],
-                    .elastic_normal = columns[3][r],
-                    .elastic_shear = columns[4][r],
-                    .friction_work = columns[5][r],
-                    .damping_work = columns[6][r],
-                    .external_work = -columns[7][r],
-                    .gravity = columns[8][r]}};
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        std::array<double, 8> row{};
+        for (std::size_t c = 0; c < row.size(); ++c) row[c] = columns[c + 1][r];
+        rows[r] = {columns[0][r], core::energy_of_columns(row)};
+    }
     return rows;
 }
 
