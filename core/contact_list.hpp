@@ -7,6 +7,7 @@
 
 #include "core/particle_store.hpp"
 #include "core/scene.hpp"
+#include "core/state/bytes.hpp"
 #include "kernels/sphere_kernels.hpp"
 
 namespace grainfield::core {
@@ -54,6 +55,13 @@ class ContactList {
     const Vec3Column& built_position() const { return built_position_; }   ///< [m]
     const std::vector<Vec3>& built_walls() const { return built_walls_; }  ///< wall points [m]
     std::int64_t builds() const { return builds_; }
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(bytes(pairs_), bytes(wall_pairs_), bytes(pair_ranges_), bytes(wall_ranges_),
+                bytes(shear_), bytes(force_), bytes(moment_), bytes(touching_), bytes(offsets_),
+                bytes(incidences_), built_position_, bytes(built_walls_), stale_, skin_, builds_);
+    }
 
   private:
     kernels::ContactColumns columns(std::size_t first);

@@ -1,9 +1,11 @@
 #pragma once
-// One step of a driven simulation: forces, step length, steering, motion, and the watch.
+// One step of a driven simulation: forces, step length, steering, motion, the watch, and the
+// checkpoints between steps.
 
 #include "core/errors.hpp"
 #include "core/monitor.hpp"
 #include "core/simulation.hpp"
+#include "core/state/checkpoint.hpp"
 #include "core/step_control.hpp"
 
 namespace grainfield::core {
@@ -13,8 +15,10 @@ class Driver {
     /// How often the state is checked for NaN, lost spheres and the like, in steps.
     static constexpr std::int64_t watch_interval = 50;
 
-    Driver(Simulation& simulation, const TimeOptions& time, Monitor& monitor)
-        : simulation_(simulation), control_(time), monitor_(monitor) {}
+    /// With a checkpoint, the simulation and what is known of its step are part of it; a run that
+    /// resumes finds both as they were.
+    Driver(Simulation& simulation, const TimeOptions& time, Monitor& monitor,
+           Checkpoint* checkpoint = nullptr);
 
     /// One step; tells the monitor before an error or an interruption leaves it. steer(step) is
     /// called with wall loads current and may set wall velocities. With `look` it is called before
@@ -37,10 +41,15 @@ class Driver {
         } catch (const SimulationError&) {
             monitor_.ended_early(simulation_);
             throw;
-        } catch (const Interrupted&) {
-            monitor_.ended_early(simulation_);
-            throw;
         }
+    }
+
+    /// To be called between steps, where all state of the work is in its parts of the checkpoint:
+    /// saves if it is time to. If the user asked to stop, saves (where there is a checkpoint) and
+    /// throws Interrupted. A save that fails while the run goes on is told to the monitor.
+    void safe_point() {
+        if (monitor_.stop_requested()) stop();
+        if (checkpoint_ != nullptr && checkpoint_->due()) save();
     }
 
     /// Adds the simulation's ledger to `rows` about every 200 steps, at steps that look, and
@@ -51,11 +60,8 @@ class Driver {
         next_energy_ = simulation_.steps() + energy_interval;
     }
 
-    /// Throws SimulationError if the state is broken, Interrupted if the user asked to stop.
-    void watch() {
-        simulation_.check_state();
-        if (monitor_.stop_requested()) throw Interrupted("stopped by the user");
-    }
+    /// Throws SimulationError if the state is broken.
+    void watch() { simulation_.check_state(); }
 
     /// Ends a run that cannot reach what it should; the monitor hears of it first.
     [[noreturn]] void fail(const std::string& what) {
@@ -66,14 +72,20 @@ class Driver {
     Simulation& simulation() { return simulation_; }
     StepControl& control() { return control_; }
     Monitor& monitor() { return monitor_; }
+    Checkpoint* checkpoint() { return checkpoint_; }
 
   private:
+    [[noreturn]] void stop();
+    void save();
+
     Simulation& simulation_;
     StepControl control_;
     Monitor& monitor_;
+    Checkpoint* checkpoint_;
     static constexpr std::int64_t energy_interval = 200;  // [steps]
     std::vector<EnergyRow>* energies_ = nullptr;
     std::int64_t next_energy_ = 0;
+    Checkpoint::Part part_;  // last: it loads what stands above
 };
 
 }  // namespace grainfield::core

@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/state/bytes.hpp"
+
 namespace grainfield::core {
 
 /// Energies and works [J]. kinetic to gravity are of the present state; the works are sums since
@@ -40,6 +42,11 @@ class EnergyClosing {
     /// Largest change of closing() since the first entry over the largest energy or work; in a test
     /// driven by walls that is the work put in [-].
     double error() const { return largest_ > 0 ? change_ / largest_ : 0.0; }
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(bytes(first_), largest_, change_);
+    }
 
   private:
     std::optional<Energy> first_;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/state/bytes.hpp"
 #include "core/world.hpp"
 
 namespace grainfield::core {
@@ -67,6 +68,10 @@ class Engine {
     /// Sets the shear force of a touching candidate [N] (used when a saved state is loaded). False
     /// if the two are no candidates.
     virtual bool restore(std::int32_t i, std::int32_t j, const Vec3& shear) = 0;
+    /// All that the engine carries from step to step, so that a run goes on to the same bits. What
+    /// is loaded was saved by an engine for the same kernels; the world has been loaded before.
+    virtual void save(StateWriter& archive) const = 0;
+    virtual void load(StateReader& archive) = 0;
     /// True if the steps since cleared() give reason to look at the whole state.
     virtual bool suspicious() const = 0;
     virtual void cleared() {}

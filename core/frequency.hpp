@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/simulation.hpp"
+#include "core/state/bytes.hpp"
 
 namespace grainfield::core {
 
@@ -28,6 +29,12 @@ class FrequencyEstimator {
     /// Upper estimate of omega_max [rad/s]: the largest Ritz value plus its residual. `restarts`
     /// rounds of `iterations` each. 0 where nothing touches.
     double estimate(const Simulation& simulation, int restarts = 4, int iterations = 8);
+
+    /// What one estimate leaves to the next.
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(bytes(sphere_), bytes(mode_));
+    }
 
   private:
     void assemble(const Simulation& simulation);

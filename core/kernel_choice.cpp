@@ -47,4 +47,8 @@ const kernels::KernelTable& choose_kernels(const SolverOptions& options) {
     return *best;
 }
 
+Isa isa_of(std::string_view name) {
+    return name == "avx512" ? Isa::avx512 : name == "avx2" ? Isa::avx2 : Isa::scalar;
+}
+
 }  // namespace grainfield::core

@@ -35,6 +35,8 @@ class ReferenceEngine : public Engine {
     bool restore(std::int32_t i, std::int32_t j, const Vec3& shear) override {
         return contacts_.restore(i, j, shear);
     }
+    void save(StateWriter& archive) const override;
+    void load(StateReader& archive) override;
     bool suspicious() const override { return true; }
     std::int64_t list_builds() const override { return contacts_.builds(); }
 

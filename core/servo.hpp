@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/simulation.hpp"
+#include "core/state/bytes.hpp"
 
 namespace grainfield::core {
 
@@ -33,6 +34,11 @@ class WallServo {
     const Options& options() const { return options_; }
     std::size_t wall() const { return wall_; }
     double steady_speed() const { return steady_speed_; }  ///< integral part [m/s]
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(bytes(wall_), bytes(options_), steady_speed_);
+    }
 
   private:
     std::size_t wall_;

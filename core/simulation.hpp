@@ -16,6 +16,7 @@
 
 #include "core/energy.hpp"
 #include "core/engine.hpp"
+#include "core/state/bytes.hpp"
 
 namespace grainfield::core {
 
@@ -123,6 +124,12 @@ class Simulation {
     /// Hash of the whole mechanical state (positions, velocities, spins, touching contacts with
     /// their shear forces, walls, time), as 16 hexadecimal digits.
     std::string state_hash() const;
+
+    /// The whole state between two steps: a simulation that loads it goes on to the same bits, with
+    /// any number of threads. Forces have to be computed before anything asks for them.
+    void save(StateWriter& archive) const;
+    /// Replaces everything. Throws InputError if it was saved with other kernels.
+    void load(StateReader& archive);
 
   private:
     void move_walls(double step);

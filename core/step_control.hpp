@@ -34,6 +34,12 @@ class StepControl {
     /// Forces a full estimate at the next step (properties or walls have changed).
     void reset() { next_estimate_ = -1; }
 
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(estimator_, network_, caught_governs_, searches_, omega_, omega_target_,
+                inertia_ratio_, step_, next_estimate_);
+    }
+
   private:
     void scale_masses(Simulation& simulation);
     double frequency(const Simulation& simulation, int rounds);

@@ -65,6 +65,7 @@ class BlockPacker {
         double speed = 0;
         const double negligible = 1e-4 * std::sqrt(options_.gravity * options_.block.y());
         do {
+            driver_.safe_point();
             const bool look = simulation_.steps() % 50 == 0;
             driver_.step(look, [&](double) {
                 if (!look) return;
@@ -101,6 +102,7 @@ class BlockPacker {
         }
         ++bouts_;
         while (simulation_.time() < start + bout) {
+            driver_.safe_point();
             const double angle = 2 * std::numbers::pi * frequency * (simulation_.time() - start);
             const double a = acceleration * options_.gravity;
             simulation_.set_gravity(gravity() + Vec3(a * std::sin(angle + phase_x),

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/state/part_of.hpp"
+
 namespace grainfield::packing {
 namespace {
 
@@ -50,7 +52,13 @@ IsotropicResult compress_isotropically(core::Driver& driver, double stress) {
                    .stress = stress,
                    .max_speed = 0.5 * most_strain_rate * start[static_cast<int>(w) / 2]});
     IsotropicResult result;
+    const auto part =
+        core::part_of(driver.checkpoint(), "isotropic compression", [&](auto& archive) {
+            archive(core::bytes(result));
+            for (core::WallServo& servo : servos) archive(servo);
+        });
     for (bool reached = false; !reached; ++result.steps) {
+        driver.safe_point();
         const bool look = result.steps % 20 == 0;
         driver.step(look, [&](double step) {
             const Vec3 size = box_dimensions(simulation);

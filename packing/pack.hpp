@@ -5,6 +5,7 @@
 
 #include "core/measures.hpp"
 #include "core/monitor.hpp"
+#include "core/state/checkpoint.hpp"
 #include "packing/block.hpp"
 #include "packing/stress_profile.hpp"
 
@@ -24,12 +25,15 @@ struct Packing {
     std::int64_t steps = 0;       ///< of settling the sample [-]
     double block_seconds = 0, settling_seconds = 0, isotropic_seconds = 0;  ///< wall time [s]
     std::string state_hash;
+
+    double seconds() const { return block_seconds + settling_seconds + isotropic_seconds; }
 };
 
 /// Packs, flips and settles; with options.isotropic_stress also brings the sample to that stress
-/// without gravity. Throws InputError (unreachable porosity), SimulationError, Interrupted.
+/// without gravity. With a checkpoint, all of it can be saved and resumed. Throws InputError
+/// (unreachable porosity), SimulationError, Interrupted.
 Packing pack(const PackingOptions& options, const Grading& grading, const Material& material,
              const core::TimeOptions& time, core::Monitor& monitor,
-             const core::SolverOptions& solver = {});
+             const core::SolverOptions& solver = {}, core::Checkpoint* checkpoint = nullptr);
 
 }  // namespace grainfield::packing

@@ -8,6 +8,7 @@
 
 #include "core/parallel.hpp"
 #include "core/servo.hpp"
+#include "core/state/part_of.hpp"
 
 namespace grainfield::packing {
 namespace {
@@ -38,9 +39,13 @@ void settle_under_gravity(core::Driver& driver, std::size_t floor_wall, double g
     const double weight = total_mass * gravity;
     const double negligible = 1e-5 * total_mass * gravity * height;  // kinetic energy [J]
 
-    simulation.set_gravity(Vec3(0, -gravity, 0));
     double ratio = 1, floor_error = 1;
-    for (std::int64_t steps = 0;; ++steps) {
+    std::int64_t steps = 0;
+    const auto part = core::part_of(driver.checkpoint(), "settling",
+                                    [&](auto& archive) { archive(ratio, floor_error, steps); });
+    if (!part.resumed()) simulation.set_gravity(Vec3(0, -gravity, 0));
+    for (;; ++steps) {
+        driver.safe_point();
         const bool look = steps % look_every == 0;
         driver.step(look, [&](double) {
             if (!look) return;

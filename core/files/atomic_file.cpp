@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <string>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "core/files/text_file.hpp"
@@ -83,15 +84,35 @@ AtomicFile::AtomicFile(const fs::path& target) : target_(real_target(target)) {
     }
 }
 
+AtomicFile::AtomicFile(const fs::path& target, fs::path temporary, bool keep_content)
+    : target_(real_target(target)), temporary_(std::move(temporary)) {
+    const Descriptor file(
+        ::open(temporary_.c_str(), O_CREAT | (keep_content ? 0 : O_TRUNC) | O_WRONLY, 0666));
+    if (file.fd >= 0) return;
+    const int error = errno;
+    temporary_.clear();
+    fail(target_, error);
+}
+
 AtomicFile::~AtomicFile() {
     if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
 void AtomicFile::commit() {
+    rename_and_flush(nullptr);
+}
+
+void AtomicFile::commit_keeping(const fs::path& before) {
+    rename_and_flush(&before);
+}
+
+void AtomicFile::rename_and_flush(const fs::path* before) {
     const Descriptor file(::open(temporary_.c_str(), O_RDONLY));
     if (file.fd < 0 || ::fsync(file.fd) != 0) fail(target_, errno);
     const Descriptor folder(::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY));
     if (folder.fd < 0) fail(target_, errno);
+    if (before && ::rename(target_.c_str(), before->c_str()) != 0 && errno != ENOENT)
+        fail(target_, errno);
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(target_, errno);
     temporary_.clear();
     // The new name must outlive a power cut, too. Not every file system knows how (EINVAL).

@@ -13,6 +13,10 @@ class AtomicFile {
   public:
     /// Creates the temporary, empty. The target's folder must exist; a link is followed.
     explicit AtomicFile(const std::filesystem::path& target);
+    /// The same with a temporary of this name, in the target's folder. What has that name is lost,
+    /// unless `keep_content`: then it is the content so far.
+    AtomicFile(const std::filesystem::path& target, std::filesystem::path temporary,
+               bool keep_content = false);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
@@ -20,11 +24,19 @@ class AtomicFile {
     /// Where to write.
     const std::filesystem::path& path() const { return temporary_; }
 
+    /// Leaves the temporary where it is, for whoever goes on with it.
+    void leave() { temporary_.clear(); }
+
     /// Flushes the temporary to the disk and gives it the target's name. Whoever wrote it must
     /// have closed it. Call once.
     void commit();
+    /// The same; what the target was until now takes the name `before`, in the same folder. Between
+    /// the two moments there is no target, but there is `before`.
+    void commit_keeping(const std::filesystem::path& before);
 
   private:
+    void rename_and_flush(const std::filesystem::path* before);
+
     std::filesystem::path target_;
     std::filesystem::path temporary_;  ///< empty once committed
 };

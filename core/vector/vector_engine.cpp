@@ -297,6 +297,7 @@ kernels::WallPlane<T> VectorEngine<T>::wall_plane(std::size_t wall) const {
 #include "core/vector/vector_contacts.inc"
 #include "core/vector/vector_lists.inc"
 #include "core/vector/vector_search.inc"
+#include "core/vector/vector_state.inc"
 
 namespace grainfield::core {
 

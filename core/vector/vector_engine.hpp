@@ -44,6 +44,8 @@ class VectorEngine : public Engine {
     std::vector<kernels::Pair> neighbours() const override;
     double resultant_sum() override;
     bool restore(std::int32_t i, std::int32_t j, const Vec3& shear) override;
+    void save(StateWriter& archive) const override;
+    void load(StateReader& archive) override;
     bool suspicious() const override { return suspicious_; }
     void cleared() override { suspicious_ = false; }
     std::int64_t list_builds() const override { return builds_; }
@@ -52,6 +54,9 @@ class VectorEngine : public Engine {
     std::int64_t renewals() const override { return renewals_; }
 
   private:
+    template <class Archive>
+    void serialize(Archive& archive);
+
     // The pass over the domains: forces, motion, or both.
     struct Pass {
         bool forces, sums, motion;

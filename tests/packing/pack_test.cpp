@@ -3,7 +3,13 @@
 
 #include <gtest/gtest.h>
 #include <omp.h>
+#include <unistd.h>
 
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/errors.hpp"
 #include "packing/isotropic.hpp"
 #include "tests/packing/small_samples.hpp"
 
@@ -77,6 +83,58 @@ TEST(Pack, IsotropicStressReplacesGravity) {
     for (int axis = 0; axis < 3; ++axis)
         EXPECT_NEAR(axis_stress(simulation, axis), 50e3, 3e-3 * 50e3) << axis;
     EXPECT_NEAR(p.porosity, 1 - p.spheres.solid_volume() / p.box.volume(), 1e-12);
+}
+
+struct Stopper : core::Monitor {
+    std::int64_t left = 0;
+    mutable std::int64_t asked = 0;
+    bool stop_requested() const override { return ++asked > left; }
+};
+
+TEST(Pack, InterruptedAnywhereAndResumedIsTheSame) {
+    namespace fs = std::filesystem;
+    PackingOptions options = testing::small_options();
+    options.blocks = {2, 2, 2};
+    options.isotropic_stress = 20e3;
+    const fs::path file =
+        fs::temp_directory_path() / ("grainfield_pack_" + std::to_string(::getpid()) + ".bin");
+    const auto run = [&](bool resume, std::int64_t left, std::int64_t* asked = nullptr) {
+        core::Checkpoint checkpoint(file, {}, 0);
+        if (resume) checkpoint.resume(*core::find_checkpoint(file));
+        Stopper monitor;
+        monitor.left = left;
+        std::optional<Packing> packing;
+        try {
+            packing = pack(options, narrow_grading(), {}, {}, monitor, {}, &checkpoint);
+        } catch (const Interrupted&) {
+        }
+        if (asked != nullptr) *asked = monitor.asked;
+        return packing;
+    };
+    std::int64_t all = 0;
+    const auto undisturbed = run(false, 1 << 30, &all);
+    ASSERT_TRUE(undisturbed);
+    // Of the block's steps, those of settling and those of compression, which come last.
+    const std::int64_t sample_steps = undisturbed->steps;
+    ASSERT_GT(all, sample_steps);
+    const std::int64_t block = all - sample_steps;
+    for (const std::int64_t stop : {block / 2, block, block + 1, block + sample_steps / 3,
+                                    block + sample_steps / 2, all - 200, all - 1}) {
+        ASSERT_FALSE(run(false, stop)) << stop;
+        const auto resumed = run(true, 1 << 30);
+        ASSERT_TRUE(resumed) << stop;
+        EXPECT_EQ(resumed->state_hash, undisturbed->state_hash) << stop;
+        EXPECT_EQ(resumed->steps, undisturbed->steps) << stop;
+        EXPECT_EQ(resumed->box.upper, undisturbed->box.upper) << stop;
+        EXPECT_EQ(resumed->profile.K0, undisturbed->profile.K0) << stop;
+        EXPECT_EQ(resumed->profile.depth, undisturbed->profile.depth) << stop;
+        EXPECT_EQ(resumed->fabric.tensor, undisturbed->fabric.tensor) << stop;
+        EXPECT_EQ(resumed->block.spheres.position, undisturbed->block.spheres.position) << stop;
+        EXPECT_EQ(resumed->block.grading.scale, undisturbed->block.grading.scale) << stop;
+        EXPECT_EQ(resumed->isotropic_stress, 20e3) << stop;
+    }
+    fs::remove(file);
+    fs::remove(core::file_before(file));
 }
 
 }  // namespace

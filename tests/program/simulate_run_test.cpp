@@ -132,21 +132,75 @@ TEST(SimulateRun, AnExplosionEndsWithThreeAndItsState) {
     EXPECT_THAT(info.out, HasSubstr("2 spheres"));
 }
 
-TEST(SimulateRun, ASignalEndsWith130AndTheState) {
-    for (const int signal : {SIGINT, SIGTERM}) {
+TEST(SimulateRun, ASignalEndsWith130AndResumingGivesTheSameFiles) {
+    // Spheres that fall and bounce for half a second of wall time or so, looked at often.
+    const std::string scene = head + "[time]\nstep = 2e-5\nend = 0.4\n" + falling + floor_wall +
+                              "[output]\ninterval = 1e-3\n[damping]\nforce = 0.1\n";
+    const Workplace undisturbed;
+    ASSERT_EQ(undisturbed.simulate(lattice(4), scene).code, 0);
+    for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
         const Workplace place;
         place.write("spheres.csv", lattice(4));
-        const std::string scene = place.write(
-            "scene.toml", head + "[time]\nstep = 1e-5\nend = 1e5\n[output]\ninterval = 1e5\n");
-        const Outcome run =
-            place.run({"simulate", scene, "--out", place.path("run")},
-                      SignalAfter{signal, [&] { return holds_a_file(place.path("run")); }});
-        EXPECT_EQ(run.code, 130) << run.err;
-        EXPECT_THAT(run.err, HasSubstr(place.path("run/state.h5")));
-        EXPECT_TRUE(place.has("run/state.h5"));
+        const std::string file = place.write("scene.toml", scene);
+        const std::vector<std::string> command{
+            "simulate", file, "--out", place.path("run"), "--checkpoint-every", "0.02"};
+        const auto with = [&](std::vector<std::string> more) {
+            more.insert(more.begin(), command.begin(), command.end());
+            return more;
+        };
+        const Outcome run = place.run(
+            command, SignalAfter{signal, [&] { return place.has("run/checkpoint.before.bin"); }});
+        EXPECT_EQ(run.code, signal == SIGKILL ? 128 + SIGKILL : 130) << run.err;
+        if (signal != SIGKILL) {
+            EXPECT_THAT(run.err, HasSubstr(place.path("run/checkpoint.bin")));
+        }
+        EXPECT_FALSE(place.has("run/trajectory.csv")) << "whole or not at all";
+        const Outcome other = place.run(with({"--resume", "--set", "time.safety=0.7"}));
+        EXPECT_EQ(other.code, 2) << other.err;
+        const Outcome resumed = place.run(with({"--resume", "--threads", "2"}));
+        ASSERT_EQ(resumed.code, 0) << resumed.err;
+        EXPECT_THAT(resumed.err, HasSubstr("goes on from"));
+        for (const char* name : {"run/trajectory.csv", "run/energy.csv", "run/contacts.csv"})
+            EXPECT_EQ(place.read(name), undisturbed.read(name)) << name;
+        EXPECT_EQ(place.json("run/summary.json").at("state_hash"),
+                  undisturbed.json("run/summary.json").at("state_hash"));
         const std::filesystem::directory_iterator files(place.path("run"));
-        EXPECT_EQ(std::distance(begin(files), end(files)), 1) << "state.h5 and nothing else";
+        EXPECT_EQ(std::distance(begin(files), end(files)), 4) << "no checkpoint, no .part";
     }
+}
+
+TEST(SimulateRun, ResumesNothingButWhatItKnows) {
+    const std::string scene = head + "[time]\nstep = 2e-5\nend = 0.4\n" + falling + floor_wall +
+                              "[output]\ninterval = 1e-3\n";
+    const Workplace place;
+    place.write("spheres.csv", lattice(4));
+    const std::string file = place.write("scene.toml", scene);
+    const std::vector<std::string> command{
+        "simulate", file, "--out", place.path("run"), "--resume", "--checkpoint-every", "0.02"};
+    // Nothing to resume: it begins.
+    const Outcome stopped = place.run(
+        command, SignalAfter{SIGINT, [&] { return place.has("run/checkpoint.before.bin"); }});
+    EXPECT_EQ(stopped.code, 130) << stopped.err;
+    EXPECT_THAT(stopped.err, HasSubstr("begins anew"));
+    // Rows that are not there any more.
+    const std::string rows = place.read("run/trajectory.csv.part");
+    place.write("run/trajectory.csv.part", rows.substr(0, rows.size() / 2));
+    const Outcome cut = place.run(command);
+    EXPECT_EQ(cut.code, 4) << cut.err;
+    EXPECT_THAT(cut.err, HasSubstr("trajectory.csv.part: is damaged"));
+    place.write("run/trajectory.csv.part", rows + "rows of a run that was killed");
+    // The last checkpoint is damaged, the one before is taken.
+    std::string checkpoint = place.read("run/checkpoint.bin");
+    checkpoint[checkpoint.size() / 2] = static_cast<char>(checkpoint[checkpoint.size() / 2] ^ 4);
+    place.write("run/checkpoint.bin", checkpoint);
+    // Other spheres are another run.
+    place.write("spheres.csv", lattice(3));
+    EXPECT_EQ(place.run(command).code, 2);
+    place.write("spheres.csv", lattice(4));
+    const Outcome resumed = place.run(command);
+    EXPECT_EQ(resumed.code, 0) << resumed.err;
+    EXPECT_THAT(resumed.err, HasSubstr("checkpoint.bin: is damaged: its checksum is wrong"));
+    EXPECT_THAT(resumed.err, HasSubstr("goes on from " + place.path("run/checkpoint.before.bin")));
 }
 
 TEST(SimulateRun, ReusesAFolder) {

@@ -1,5 +1,6 @@
 #pragma once
-// SIGINT and SIGTERM: the first asks the work to stop at a safe place, the second ends it.
+// SIGINT and SIGTERM: the first asks the work to stop at a safe place, another one half a second
+// later ends it.
 
 namespace grainfield::triaxial {
 

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <optional>
 
 #include "triaxial/cli/commands.hpp"
+#include "triaxial/cli/kept_run.hpp"
 #include "triaxial/cli/print_row.hpp"
-#include "triaxial/cli/state_keeper.hpp"
 #include "triaxial/config/load_config.hpp"
+#include "triaxial/config/write_config.hpp"
 #include "triaxial/test/packing_files.hpp"
 
 namespace grainfield::triaxial {
@@ -17,6 +17,7 @@ namespace {
 struct Arguments {
     std::optional<std::string> config;
     std::string out;
+    KeepingArguments keeping;
 };
 
 void print_results(const packing::Packing& p) {
@@ -49,15 +50,24 @@ void print_results(const packing::Packing& p) {
 }
 
 void run_pack(const Arguments& arguments, Session& session) {
-    const Config config = load_config(arguments.config, session.settings);
-    const auto start = std::chrono::steady_clock::now();
-    StateKeeper keeper(session.monitor,
-                       std::filesystem::path(arguments.out).replace_extension(".failed.h5"));
-    const packing::Packing packed = keeper.run([&] { return pack(config, keeper); });
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    write_packing(arguments.out, packed, seconds.count());
+    const auto beside = [&](const char* suffix) {
+        return std::filesystem::path(arguments.out).replace_extension(suffix);
+    };
+    const auto found = arguments.keeping.find(beside(".checkpoint.bin"), session.monitor);
+    Config config = found ? resumed_config(*found, arguments.config, session.settings)
+                          : load_config(arguments.config, session.settings);
+    const std::string asked = write_config(config);
+    if (found) config.solver = resumed_solver(*found, "pack", config.solver);
+    nlohmann::json identity = run_identity("pack", config.solver);
+    identity["config"] = asked;
+    core::Checkpoint checkpoint(beside(".checkpoint.bin"), identity, arguments.keeping.every);
+    if (found) checkpoint.resume(*found);
+    KeptRun kept(session.monitor, beside(".failed.h5"), checkpoint);
+    const packing::Packing packed = kept.run([&] { return pack(config, kept, &checkpoint); });
+    write_packing(arguments.out, packed, packed.seconds());
+    checkpoint.remove();
     print_results(packed);
-    print_row("time", fmt::format("{:.1f} s", seconds.count()));
+    print_row("time", fmt::format("{:.1f} s", packed.seconds()));
     print_row("written", fmt::format("{}, {}", arguments.out, json_beside(arguments.out).string()));
 }
 
@@ -75,6 +85,7 @@ void add_pack_command(CLI::App& app, CommandLine& line) {
     command
         .add_option("--out", arguments->out, "File to write: .h5 (ParaView), .csv, .data or .txt")
         ->required();
+    arguments->keeping.add_to(command);
 }
 
 }  // namespace grainfield::triaxial

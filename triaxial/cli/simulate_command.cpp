@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "core/files/checksum.hpp"
+#include "core/files/text_file.hpp"
 #include "triaxial/cli/commands.hpp"
+#include "triaxial/cli/kept_run.hpp"
 #include "triaxial/cli/print_row.hpp"
 #include "triaxial/cli/terminal_monitor.hpp"
 #include "triaxial/scene/run_scene.hpp"
@@ -17,16 +20,47 @@ constexpr const char* files_text =
     "                  work that moving walls put in\n"
     "  contacts.csv    contacts at the end; wall W is j = -1-W, the shear force is that on i\n"
     "  summary.json    counts, times, how well the energies close, hash of the final state\n"
-    "or, where the simulation fails or is interrupted, state.h5 alone.\n";
+    "or, where the simulation fails, state.h5 alone; where it is interrupted, checkpoint.bin and\n"
+    "the tables so far (.part), from which --resume goes on.\n";
 
 struct Arguments {
     std::string scene, out;
+    KeepingArguments keeping;
 };
 
+/// Checksum of all that the run is made of: scene, settings, spheres.
+std::string checksum_of_inputs(const Arguments& arguments, const SceneFile& scene,
+                               const std::vector<std::string>& settings) {
+    core::Checksum checksum;
+    const auto add = [&](const std::string& text) { checksum.add(text.c_str(), text.size() + 1); };
+    add(core::read_whole_file(arguments.scene));
+    for (const std::string& setting : settings) add(setting);
+    add(core::read_whole_file(scene.spheres));
+    std::string hex;
+    for (const char byte : checksum.digest())
+        hex += fmt::format("{:02x}", static_cast<unsigned char>(byte));
+    return hex;
+}
+
 void run_simulate(const Arguments& arguments, Session& session) {
-    const SceneFile scene = load_scene(arguments.scene, session.settings);
-    const SceneSummary s =
-        run_scene(scene, arguments.scene, arguments.out, session.threads, session.monitor);
+    const std::filesystem::path out = arguments.out;
+    const std::filesystem::path file = out / "checkpoint.bin";
+    const auto found = arguments.keeping.find(file, session.monitor);
+    SceneFile scene = load_scene(arguments.scene, session.settings);
+    if (found) scene.solver = resumed_solver(*found, "simulate", scene.solver);
+    nlohmann::json identity = run_identity("simulate", scene.solver);
+    identity["inputs"] = checksum_of_inputs(arguments, scene, session.settings);
+    if (found && found->identity.at("inputs") != identity["inputs"])
+        throw InputError(
+            fmt::format("--resume: {} is of another run: {}, its spheres or --set "
+                        "are not what they were",
+                        found->file.string(), arguments.scene));
+    core::Checkpoint checkpoint(file, identity, arguments.keeping.every);
+    if (found) checkpoint.resume(*found);
+    KeptRun kept(session.monitor, out / "state.h5", checkpoint);
+    const SceneSummary s = kept.run(
+        [&] { return run_scene(scene, arguments.scene, out, session.threads, kept, &checkpoint); });
+    checkpoint.remove();
     print_row("particles, walls", fmt::format("{}, {}", s.particles, s.walls));
     print_row("contacts at the end", fmt::format("{}", s.contacts));
     print_row("time, steps", fmt::format("{:.6g} s, {}", s.time, s.steps));
@@ -52,6 +86,7 @@ void add_simulate_command(CLI::App& app, CommandLine& line) {
     command.add_option("scene", arguments->scene, "Scene (TOML)")->required();
     command.add_option("--out", arguments->out, "Folder for the results, made where it is missing")
         ->required();
+    arguments->keeping.add_to(command);
 }
 
 }  // namespace grainfield::triaxial

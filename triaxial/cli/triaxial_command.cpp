@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 #include <numbers>
 #include <optional>
@@ -12,9 +11,11 @@
 #include "core/files/folder.hpp"
 #include "core/files/text_file.hpp"
 #include "core/kernel_choice.hpp"
+#include "core/state/part_of.hpp"
+#include "core/stopwatch.hpp"
 #include "triaxial/cli/commands.hpp"
+#include "triaxial/cli/kept_run.hpp"
 #include "triaxial/cli/print_row.hpp"
-#include "triaxial/cli/state_keeper.hpp"
 #include "triaxial/config/load_config.hpp"
 #include "triaxial/config/write_config.hpp"
 #include "triaxial/report/report.hpp"
@@ -30,25 +31,22 @@ namespace fs = std::filesystem;
 struct Arguments {
     std::optional<std::string> config;
     std::optional<std::string> packing;
-    std::int64_t realization = 0;
+    std::optional<std::int64_t> realization;
     std::string out;
+    KeepingArguments keeping;
 };
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 /// The sample from a file; packing.json follows it into the run's folder where it exists.
-Sample sample_from_file(const Arguments& arguments, const Config& config, const fs::path& out) {
-    const fs::path path = *arguments.packing;
+Sample sample_from_file(const fs::path& path, const Config& config, const fs::path& out) {
     core::SphereFile file = read_packing(path, config);
     if (fs::exists(json_beside(path)) && file.kind == "packing")
         core::write_file_atomically(out / "packing.json", core::read_whole_file(json_beside(path)));
     return sample_of(std::move(file), path);
 }
 
-Sample sample_from_nothing(const Config& config, const fs::path& out, core::Monitor& monitor) {
-    packing::Packing packed = pack_into(out / "packing.h5", config, monitor);
+Sample sample_from_nothing(const Config& config, const fs::path& out, core::Monitor& monitor,
+                           core::Checkpoint& checkpoint) {
+    packing::Packing packed = pack_into(out / "packing.h5", config, monitor, &checkpoint);
     return {std::move(packed.spheres), packed.box};
 }
 
@@ -81,32 +79,100 @@ void print_results(const TestResult& r, const Config& config, const FieldRecord&
                           energy.damping_work, 100 * r.energy_closing_error));
 }
 
-void run_triaxial(const Arguments& arguments, Session& session) {
-    const Config config = load_config(arguments.config, session.settings);
-    if (arguments.realization < 0)
+/// A run to begin or to go on with.
+struct Run {
+    Config config;
+    std::string asked;  // the config as resolved, before "auto" got its meaning
+    nlohmann::json identity;
+    std::optional<core::FoundCheckpoint> found;
+    std::optional<std::string> packing;
+    std::int64_t realization = 0;
+};
+
+/// What was asked for, completed by the checkpoint where the run resumes.
+Run prepare(const Arguments& arguments, const fs::path& checkpoint, Session& session) {
+    Run run;
+    run.found = arguments.keeping.find(checkpoint, session.monitor);
+    run.packing = arguments.packing;
+    run.realization = arguments.realization.value_or(0);
+    if (run.realization < 0)
         throw InputError(
-            fmt::format("--realization = {}: must be a whole number >= 0", arguments.realization));
+            fmt::format("--realization = {}: must be a whole number >= 0", run.realization));
+    run.config = run.found ? resumed_config(*run.found, arguments.config, session.settings)
+                           : load_config(arguments.config, session.settings);
+    run.asked = write_config(run.config);
+    if (run.found) {
+        const nlohmann::json& before = run.found->identity;
+        run.config.solver = resumed_solver(*run.found, "triaxial", run.config.solver);
+        const std::string packing = before.at("packing");
+        if (arguments.packing.value_or(packing) != packing)
+            throw InputError(fmt::format("--packing = {}: the checkpoint is of \"{}\"",
+                                         *arguments.packing, packing));
+        if (arguments.realization && before.at("realization") != run.realization)
+            throw InputError(fmt::format("--realization = {}: the checkpoint is of {}",
+                                         run.realization,
+                                         before.at("realization").get<std::int64_t>()));
+        if (!packing.empty()) run.packing = packing;
+        run.realization = before.at("realization");
+    }
+    run.identity = run_identity("triaxial", run.config.solver);
+    run.identity["config"] = run.asked;
+    run.identity["packing"] = run.packing.value_or("");
+    run.identity["realization"] = run.realization;
+    return run;
+}
+
+/// What was done before the test.
+struct Before {
+    bool ready = false;  // the sample stands in the simulation
+    core::Stopwatch watch;
+    RunTimes times;
+    FieldRecord field;  // but for the field itself
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+        using core::bytes;
+        archive(ready, watch, bytes(times), bytes(field.variable), field.realization, field.gamma,
+                field.covariance_error, field.mean_ratio_expected, field.mean_ratio_cells);
+    }
+};
+
+core::Simulation begin_test(const Run& run, Before& before, const kernels::KernelTable& kernels,
+                            const fs::path& out, core::Monitor& monitor,
+                            core::Checkpoint& checkpoint) {
+    const core::SimulationOptions options{.skin = 0, .ledger = true};
+    if (before.ready) return {core::Scene{}, kernels, options};
+    Sample sample = run.packing ? sample_from_file(*run.packing, run.config, out)
+                                : sample_from_nothing(run.config, out, monitor, checkpoint);
+    before.times.packing = before.watch.lap();
+    before.field = map_field(run.config, run.realization, sample);
+    before.times.field = before.watch.lap();
+    before.ready = true;
+    return make_simulation(std::move(sample), run.config, kernels,
+                           run.packing.value_or("the packing"), options);
+}
+
+void run_triaxial(const Arguments& arguments, Session& session) {
+    const fs::path out = arguments.out;
+    const fs::path checkpoint_file = out / "checkpoint.bin";
+    const Run run = prepare(arguments, checkpoint_file, session);
+    const Config& config = run.config;
     check_field_data(config);
     const kernels::KernelTable& kernels = core::choose_kernels(config.solver);
-    const fs::path out = arguments.out;
     core::create_folder(out);
-    StateKeeper keeper(session.monitor, out / "state.h5");
+    core::Checkpoint checkpoint(checkpoint_file, run.identity, arguments.keeping.every);
+    if (run.found) checkpoint.resume(*run.found);
+    KeptRun kept(session.monitor, out / "state.h5", checkpoint);
 
-    RunTimes times;
-    auto start = std::chrono::steady_clock::now();
-    Sample sample = arguments.packing
-                        ? sample_from_file(arguments, config, out)
-                        : keeper.run([&] { return sample_from_nothing(config, out, keeper); });
-    times.packing = seconds_since(start);
-    start = std::chrono::steady_clock::now();
-    const FieldRecord field = map_field(config, arguments.realization, sample);
-    times.field = seconds_since(start);
-
+    Before before;
+    const auto part = core::part_of(&checkpoint, "run", [&](auto& archive) { archive(before); });
     core::Simulation simulation =
-        make_simulation(std::move(sample), config, kernels,
-                        arguments.packing.value_or("the packing"), {.ledger = true});
-    const TestResult result = keeper.run([&] { return run_test(simulation, config, keeper); });
-    core::write_file_atomically(out / "config.toml", write_config(config));
+        kept.run([&] { return begin_test(run, before, kernels, out, kept, checkpoint); });
+    const TestResult result =
+        kept.run([&] { return run_test(simulation, config, kept, &checkpoint); });
+    const RunTimes& times = before.times;
+    const FieldRecord& field = before.field;
+    core::write_file_atomically(out / "config.toml", run.asked);
     core::write_file_atomically(out / "curve.csv", curve_csv(result.curve));
     core::write_file_atomically(out / "energy.csv", energy_csv(result.energies));
     write_state(out / "state.h5", simulation);
@@ -114,6 +180,7 @@ void run_triaxial(const Arguments& arguments, Session& session) {
         run_summary(result, field, config, simulation, times, session.threads);
     core::write_file_atomically(out / "summary.json", summary.dump(2) + "\n");
     const fs::path report = write_report(out);
+    checkpoint.remove();
 
     print_row("spheres", fmt::format("{}, {} contacts when shear began",
                                      simulation.spheres().size(), result.contacts));
@@ -148,6 +215,7 @@ void add_triaxial_command(CLI::App& app, CommandLine& line) {
     command.add_option("--realization", arguments->realization,
                        "Which realization of the field, 0 unless given");
     command.add_option("--out", arguments->out, "Folder for the results")->required()->take_last();
+    arguments->keeping.add_to(command);
 }
 
 }  // namespace grainfield::triaxial

@@ -59,6 +59,11 @@ Config load_config(const std::optional<std::filesystem::path>& file,
     return read_config(read_root(file, overrides), file ? file->string() : "", cases);
 }
 
+Config parse_config(std::string_view text, const std::string& source) {
+    std::vector<CaseKeys> cases;
+    return read_config(parse_toml(text, source), source, cases);
+}
+
 std::vector<CampaignCase> load_campaign(const std::optional<std::filesystem::path>& file,
                                         std::span<const std::string> overrides) {
     const TomlValue root = read_root(file, overrides);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "triaxial/config/config.hpp"
@@ -16,6 +17,9 @@ namespace grainfield::triaxial {
 /// and FileError where the file cannot be read.
 Config load_config(const std::optional<std::filesystem::path>& file,
                    std::span<const std::string> overrides = {});
+
+/// The config that write_config() wrote as `text`; `source` names it in messages.
+Config parse_config(std::string_view text, const std::string& source);
 
 /// One case of a campaign with its whole config.
 struct CampaignCase {

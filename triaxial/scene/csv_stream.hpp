@@ -1,7 +1,8 @@
 #pragma once
-// A table that grows while a run goes on: rows go to a temporary file, which takes the table's name
-// only at the end.
+// A table that grows while a run goes on: rows go to NAME.part, which takes the table's name only
+// at the end. A run that resumes goes on with the rows that its checkpoint knows.
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -9,29 +10,46 @@
 #include <string_view>
 
 #include "core/files/atomic_file.hpp"
+#include "core/files/checksum.hpp"
 
 namespace grainfield::triaxial {
 
 class CsvStream {
   public:
-    /// FileError where the file cannot be made or written, here and below.
+    /// The rows up to a moment.
+    struct Mark {
+        std::uint64_t length = 0;  ///< header and rows [B]
+        core::Checksum::Digest checksum{};
+    };
+
+    /// Begins a table. FileError where the file cannot be made or written, here and below.
     CsvStream(const std::filesystem::path& path, std::string_view header);
+    /// Goes on with the rows that were there at `mark`; later ones are dropped. FileError where
+    /// these are not there any more.
+    CsvStream(const std::filesystem::path& path, const Mark& mark);
+    ~CsvStream();
 
     /// Ids first, then numbers as the shortest text that reads back as the same double.
     void add(std::int64_t id);
     void add(double value);
     void end_row();
 
+    /// Brings the rows so far to the disk, for a checkpoint. From now on they outlive this.
+    Mark mark();
+
     /// Writes what is left and gives the file its name. Call once.
     void commit();
 
   private:
+    [[noreturn]] void fail() const;
     void flush();
 
     std::filesystem::path path_;
     core::AtomicFile file_;
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> out_;
     std::string text_;  // rows not yet written
+    core::Checksum checksum_;
+    bool marked_ = false;
 };
 
 }  // namespace grainfield::triaxial

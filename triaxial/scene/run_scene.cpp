@@ -2,23 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <optional>
 
 #include "core/driver.hpp"
 #include "core/kernel_choice.hpp"
+#include "core/state/part_of.hpp"
+#include "core/stopwatch.hpp"
 #include "triaxial/scene/scene_output.hpp"
 #include "triaxial/scene/scene_setup.hpp"
 
 namespace grainfield::triaxial {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// round(end/step), or nothing where the step is automatic [-].
 std::optional<std::int64_t> fixed_steps(const SceneFile& file, const std::string& source) {
@@ -37,19 +32,30 @@ constexpr double report_interval = 0.1;  // [s]
 class SceneRun {
   public:
     SceneRun(const SceneFile& file, const std::string& source, core::Simulation& simulation,
-             SceneOutput& output, core::Monitor& monitor)
+             SceneOutput& output, core::Monitor& monitor, core::Checkpoint* checkpoint)
         : file_(file),
           fixed_steps_(fixed_steps(file, source)),
           simulation_(simulation),
           output_(output),
           monitor_(monitor),
-          driver_(simulation, {file.step, file.safety, file.mass_scaling}, monitor),
-          servos_(set_up_servos(file, simulation.scene(), source)) {}
+          driver_(simulation, {file.step, file.safety, file.mass_scaling}, monitor, checkpoint),
+          servos_(set_up_servos(file, simulation.scene(), source)),
+          part_(
+              checkpoint, "scene",
+              [this](core::StateWriter& archive) {
+                  archive_state(archive);
+                  output_.save(archive);
+              },
+              [this](core::StateReader& archive) {
+                  archive_state(archive);
+                  output_.load(archive);
+              }) {}
 
     void run() {
         report();
         bool last = false;
         while (!last) {
+            driver_.safe_point();
             simulation_.compute_forces(true);
             double step = driver_.control().next(simulation_);
             if (fixed_steps_) {
@@ -63,7 +69,7 @@ class SceneRun {
                 s.servo.steer(simulation_, s.area(simulation_.walls()), step);
             simulation_.advance(step);
             if (simulation_.steps() % core::Driver::watch_interval == 0) driver_.watch();
-            if (seconds_since(reported_) > report_interval) report();
+            if (reported_.seconds() > report_interval) report();
         }
         report();
         simulation_.compute_forces(true);
@@ -77,7 +83,14 @@ class SceneRun {
         return static_cast<double>(simulation_.steps()) * *file_.step;
     }
 
+    double wall_seconds() const { return watch_.seconds(); }
+
   private:
+    template <class Archive>
+    void archive_state(Archive& archive) {
+        archive(next_output_, watch_);
+        for (ServoWall& wall : servos_) archive(wall.servo);
+    }
     void write_if_due(double step) {
         // A step may miss a multiple of the interval by round-off.
         const double reached = (time() + 1e-6 * step) / file_.output_interval;
@@ -88,7 +101,7 @@ class SceneRun {
 
     /// To the monitor, which shows what it wants of it.
     void report() {
-        reported_ = Clock::now();
+        reported_.lap();
         monitor_.progress(
             time() / file_.end, simulation_.steps(),
             fmt::format("t {:.4g} s, {} contacts", time(), simulation_.touching_contacts()));
@@ -102,23 +115,25 @@ class SceneRun {
     core::Driver driver_;
     std::vector<ServoWall> servos_;
     double next_output_ = 0;  // in units of the interval [-]
-    Clock::time_point reported_{};
+    core::Stopwatch reported_, watch_;
+    core::Checkpoint::Part part_;  // last: it loads what stands above
 };
 
 }  // namespace
 
 SceneSummary run_scene(const SceneFile& file, const std::filesystem::path& source,
-                       const std::filesystem::path& out, int threads, core::Monitor& monitor) {
+                       const std::filesystem::path& out, int threads, core::Monitor& monitor,
+                       core::Checkpoint* checkpoint) {
     const kernels::KernelTable& kernels = core::choose_kernels(file.solver);
     monitor.begin("reading the scene");
     core::SimulationOptions options;
     options.ledger = true;
-    core::Simulation simulation(set_up_scene(file), kernels, options);
-    SceneOutput output(out);
-    SceneRun run(file, source.string(), simulation, output, monitor);
+    const bool resumes = checkpoint != nullptr && checkpoint->resuming();
+    core::Simulation simulation(resumes ? core::Scene{} : set_up_scene(file), kernels, options);
+    SceneOutput output(out, !resumes);
+    SceneRun run(file, source.string(), simulation, output, monitor, checkpoint);
 
     monitor.begin("simulating");
-    const Clock::time_point start = Clock::now();
     try {
         run.run();
     } catch (const SimulationError& error) {
@@ -126,9 +141,7 @@ SceneSummary run_scene(const SceneFile& file, const std::filesystem::path& sourc
         throw SimulationError(
             fmt::format("{}; the state is saved in {}", error.what(), saved.string()));
     } catch (const Interrupted& error) {
-        const auto saved = save_state(simulation, out);
-        throw Interrupted(fmt::format("{} at time {:g} s; the state is saved in {}", error.what(),
-                                      run.time(), saved.string()));
+        throw Interrupted(fmt::format("{} at time {:g} s", error.what(), run.time()));
     }
     SceneSummary summary;
     summary.particles = simulation.spheres().size();
@@ -138,7 +151,7 @@ SceneSummary run_scene(const SceneFile& file, const std::filesystem::path& sourc
     summary.time = run.time();
     summary.time_step = file.step ? *file.step : summary.time / double(summary.steps);
     summary.energy_closing_error = output.energy_closing_error();
-    summary.wall_seconds = seconds_since(start);
+    summary.wall_seconds = run.wall_seconds();
     summary.particle_steps_per_second =
         double(summary.particles) * double(summary.steps) / summary.wall_seconds;
     summary.state_hash = simulation.state_hash();

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/monitor.hpp"
+#include "core/state/checkpoint.hpp"
 #include "triaxial/config/scene_file.hpp"
 
 namespace grainfield::triaxial {
@@ -27,9 +28,12 @@ struct SceneSummary {
 /// states at t = 0, at the first step at or after each multiple of the output interval, and at the
 /// end. A fixed step is taken round(end/step) times; of automatic steps the last is cut to hit the
 /// end. `source`: the scene's file, for messages.
-/// Throws InputError, FileError; SimulationError and Interrupted after out/state.h5 was written,
-/// which the message names. None of the other files appears then.
+/// With a checkpoint it can be saved and resumed; rows of the tables that a checkpoint knows are
+/// kept as NAME.part until then.
+/// Throws InputError, FileError, Interrupted; SimulationError after out/state.h5 was written, which
+/// the message names. None of the other files appears then.
 SceneSummary run_scene(const SceneFile& file, const std::filesystem::path& source,
-                       const std::filesystem::path& out, int threads, core::Monitor& monitor);
+                       const std::filesystem::path& out, int threads, core::Monitor& monitor,
+                       core::Checkpoint* checkpoint = nullptr);
 
 }  // namespace grainfield::triaxial

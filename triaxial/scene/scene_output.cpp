@@ -1,5 +1,6 @@
 #include "triaxial/scene/scene_output.hpp"
 
+#include <cereal/archives/binary.hpp>
 #include <nlohmann/json.hpp>
 
 #include "core/files/energy_csv.hpp"
@@ -12,11 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* trajectory_name = "trajectory.csv";
+constexpr const char* energy_name = "energy.csv";
 constexpr const char* trajectory_header = "time_s,id,x,y,z,vx,vy,vz,wx,wy,wz";
-fs::path made_folder(const fs::path& folder) {
-    core::create_folder(folder);
-    return folder;
-}
 
 void write_contacts(const core::Simulation& simulation, const fs::path& path) {
     CsvStream table(path,
@@ -55,32 +54,46 @@ std::string summary_text(const SceneSummary& s) {
 
 }  // namespace
 
-SceneOutput::SceneOutput(const fs::path& folder)
-    : folder_(made_folder(folder)),
-      trajectory_(folder / "trajectory.csv", trajectory_header),
-      energy_(folder / "energy.csv", core::energy_header) {}
+SceneOutput::SceneOutput(const fs::path& folder, bool begins) : folder_(folder) {
+    core::create_folder(folder);
+    if (!begins) return;
+    trajectory_.emplace(folder / trajectory_name, trajectory_header);
+    energy_.emplace(folder / energy_name, core::energy_header);
+}
+
+void SceneOutput::save(core::StateWriter& archive) {
+    CsvStream::Mark trajectory = trajectory_->mark(), energy = energy_->mark();
+    archive(core::bytes(trajectory), core::bytes(energy), closing_);
+}
+
+void SceneOutput::load(core::StateReader& archive) {
+    CsvStream::Mark trajectory, energy;
+    archive(core::bytes(trajectory), core::bytes(energy), closing_);
+    trajectory_.emplace(folder_ / trajectory_name, trajectory);
+    energy_.emplace(folder_ / energy_name, energy);
+}
 
 void SceneOutput::add(const core::Simulation& simulation, double time) {
     const core::Vec3Column& position = simulation.spheres().position;
     for (std::size_t i = 0; i < position.size(); ++i) {
         const kernels::OnStep motion = simulation.on_step(i);
-        trajectory_.add(time);
-        trajectory_.add(static_cast<std::int64_t>(i));
+        trajectory_->add(time);
+        trajectory_->add(static_cast<std::int64_t>(i));
         for (const Vec3& v : {position[i], motion.velocity, motion.spin})
-            for (const double component : v) trajectory_.add(component);
-        trajectory_.end_row();
+            for (const double component : v) trajectory_->add(component);
+        trajectory_->end_row();
     }
 
     const core::Energy e = simulation.energy();
-    energy_.add(time);
-    for (const double value : core::energy_columns(e)) energy_.add(value);
-    energy_.end_row();
+    energy_->add(time);
+    for (const double value : core::energy_columns(e)) energy_->add(value);
+    energy_->end_row();
     closing_.add(e);
 }
 
 void SceneOutput::finish(const core::Simulation& simulation, const SceneSummary& summary) {
-    trajectory_.commit();
-    energy_.commit();
+    trajectory_->commit();
+    energy_->commit();
     write_contacts(simulation, folder_ / "contacts.csv");
     core::write_file_atomically(folder_ / "summary.json", summary_text(summary));
 }

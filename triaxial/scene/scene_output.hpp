@@ -2,6 +2,7 @@
 // The files of a scene's run (interface.md, "Files").
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "core/simulation.hpp"
@@ -18,8 +19,13 @@ namespace grainfield::triaxial {
 /// that moving walls have put in since the start.
 class SceneOutput {
   public:
-    /// Makes the folder where it is missing. FileError.
-    explicit SceneOutput(const std::filesystem::path& folder);
+    /// Makes the folder where it is missing, and begins the tables unless load() will find them as
+    /// a checkpoint knows them. FileError.
+    SceneOutput(const std::filesystem::path& folder, bool begins);
+
+    /// For checkpoints: the rows so far go to the disk; or the tables are those of then.
+    void save(core::StateWriter& archive);
+    void load(core::StateReader& archive);
 
     /// Adds the present state at `time` [s]; compute_forces(true) must have been called.
     void add(const core::Simulation& simulation, double time);
@@ -31,7 +37,7 @@ class SceneOutput {
 
   private:
     std::filesystem::path folder_;
-    CsvStream trajectory_, energy_;
+    std::optional<CsvStream> trajectory_, energy_;
     core::EnergyClosing closing_;
 };
 

@@ -45,6 +45,11 @@ class PeakWatch {
     const char* reason() const { return reason_; }
     double peak() const { return peak_; }  ///< so far [Pa]
 
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(confining_stress_, peak_, strain_at_peak_);
+    }
+
   private:
     double confining_stress_;
     double peak_ = 0, strain_at_peak_ = 0;

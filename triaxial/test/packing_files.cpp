@@ -1,7 +1,5 @@
 #include "triaxial/test/packing_files.hpp"
 
-#include <chrono>
-
 #include "core/files/atomic_file.hpp"
 #include "core/files/sphere_file.hpp"
 
@@ -45,9 +43,9 @@ packing::Material packing_material(const Config& config) {
             .wall_stiffness_ratio = config.wall.poisson_ratio};
 }
 
-packing::Packing pack(const Config& config, core::Monitor& monitor) {
+packing::Packing pack(const Config& config, core::Monitor& monitor, core::Checkpoint* checkpoint) {
     return packing::pack(config.packing, config.grading, packing_material(config), config.time,
-                         monitor, config.solver);
+                         monitor, config.solver, checkpoint);
 }
 
 nlohmann::json packing_json(const packing::Packing& p, double wall_seconds) {
@@ -107,11 +105,9 @@ void write_packing(const std::filesystem::path& path, const packing::Packing& p,
 }
 
 packing::Packing pack_into(const std::filesystem::path& path, const Config& config,
-                           core::Monitor& monitor) {
-    const auto start = std::chrono::steady_clock::now();
-    packing::Packing packed = pack(config, monitor);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    write_packing(path, packed, seconds.count());
+                           core::Monitor& monitor, core::Checkpoint* checkpoint) {
+    packing::Packing packed = pack(config, monitor, checkpoint);
+    write_packing(path, packed, packed.seconds());
     return packed;
 }
 

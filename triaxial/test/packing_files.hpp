@@ -13,7 +13,8 @@ namespace grainfield::triaxial {
 packing::Material packing_material(const Config& config);
 
 /// packing::pack() of a whole config.
-packing::Packing pack(const Config& config, core::Monitor& monitor);
+packing::Packing pack(const Config& config, core::Monitor& monitor,
+                      core::Checkpoint* checkpoint = nullptr);
 
 /// The contents of P.json (interface.md), with the grading and the stress profile for the report.
 nlohmann::json packing_json(const packing::Packing& packing, double wall_seconds);
@@ -28,6 +29,6 @@ void write_packing(const std::filesystem::path& path, const packing::Packing& pa
 
 /// Packs and writes the packing with the time it took. Throws what the two throw.
 packing::Packing pack_into(const std::filesystem::path& path, const Config& config,
-                           core::Monitor& monitor);
+                           core::Monitor& monitor, core::Checkpoint* checkpoint = nullptr);
 
 }  // namespace grainfield::triaxial

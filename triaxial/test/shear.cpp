@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/state/part_of.hpp"
 #include "packing/isotropic.hpp"
 
 namespace grainfield::triaxial {
@@ -105,10 +106,20 @@ bool ShearStage::record() {
     return past;
 }
 
+template <class Archive>
+void ShearStage::archive_state(Archive& archive) {
+    using core::bytes;
+    archive(bytes(start_size_), bytes(curve_), peak_, steps_, time_, bytes(stress_sum_),
+            stress_count_, next_strain_, square_error_sum_, max_error_);
+    for (core::WallServo& servo : servos_) archive(servo);
+}
+
 void ShearStage::run() {
-    start_affine();
-    next_strain_ = 0;
+    const auto part = core::part_of(driver_.checkpoint(), "shear",
+                                    [this](auto& archive) { archive_state(archive); });
+    if (!part.resumed()) start_affine();
     for (bool ended = false; !ended;) {
+        driver_.safe_point();
         const bool due = axial_strain() >= next_strain_;
         driver_.step(due, [&](double step) {
             steer(step);

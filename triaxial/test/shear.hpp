@@ -29,6 +29,8 @@ class ShearStage {
     double lateral_max_error() const { return max_error_; }  ///< at recorded points [-]
 
   private:
+    template <class Archive>
+    void archive_state(Archive& archive);
     void start_affine();
     void steer(double step);
     bool record();

@@ -3,18 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "core/state/part_of.hpp"
+#include "core/stopwatch.hpp"
 #include "packing/isotropic.hpp"
 #include "triaxial/test/shear.hpp"
 
 namespace grainfield::triaxial {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// I = strain rate * d * sqrt(rho/p), d the mean diameter by volume, rho of the real masses.
 double inertial_number(const core::ParticleStore& s, const Config& config) {
@@ -57,35 +54,37 @@ core::Simulation make_simulation(Sample sample, const Config& config,
     return simulation;
 }
 
-TestResult run_test(core::Simulation& simulation, const Config& config, core::Monitor& monitor) {
-    TestResult result;
-    const double solid = simulation.spheres().solid_volume();
-    result.porosity = 1 - solid / packing::box_dimensions(simulation).prod();
-    result.inertial_number = inertial_number(simulation.spheres(), config);
-    core::Driver driver(simulation, config.time, monitor);
-    const bool ledger = simulation.keeps_ledger();
-    if (ledger) driver.log_energies_to(result.energies);
+namespace {
 
-    auto start = std::chrono::steady_clock::now();
-    monitor.begin("isotropic compression");
+/// What the isotropic stage leaves to the shear stage; the rest is found at the end.
+template <class Archive>
+void archive_result(Archive& archive, TestResult& r) {
+    using core::bytes;
+    archive(r.porosity, r.sheared_porosity, r.contacts, bytes(r.fabric), r.isotropic_steps,
+            r.isotropic_unbalanced, r.isotropic_stress_error, r.isotropic_seconds,
+            bytes(r.energies), r.shear_began);
+}
+
+void compress(TestResult& result, core::Driver& driver, const Config& config, double solid) {
+    const core::Simulation& simulation = driver.simulation();
+    driver.monitor().begin("isotropic compression");
     const packing::IsotropicResult isotropic =
         packing::compress_isotropically(driver, config.triaxial.confining_stress);
     result.isotropic_steps = isotropic.steps;
     result.isotropic_unbalanced = isotropic.unbalanced_force_ratio;
     result.isotropic_stress_error = isotropic.stress_error;
-    if (ledger) driver.log_energy();
+    if (simulation.keeps_ledger()) driver.log_energy();
     result.shear_began = simulation.time();
-    result.isotropic_seconds = seconds_since(start);
-
     result.sheared_porosity = 1 - solid / packing::box_dimensions(simulation).prod();
     result.contacts = simulation.touching_contacts();
     result.fabric = core::measure_fabric(simulation);
+}
 
-    start = std::chrono::steady_clock::now();
-    monitor.begin("shear");
+void shear(TestResult& result, core::Driver& driver, const Config& config) {
+    driver.monitor().begin("shear");
     ShearStage shear(driver, config.triaxial);
     shear.run();
-    if (ledger) driver.log_energy();
+    if (driver.simulation().keeps_ledger()) driver.log_energy();
     core::EnergyClosing closing;
     for (const core::EnergyRow& row : result.energies) closing.add(row.energy);
     result.energy_closing_error = closing.error();
@@ -96,14 +95,38 @@ TestResult run_test(core::Simulation& simulation, const Config& config, core::Mo
     result.lateral_rms_error = shear.lateral_rms_error();
     result.lateral_max_error = shear.lateral_max_error();
     result.inertia_ratio = driver.control().inertia_ratio();
-    result.inertial_number *= std::sqrt(result.inertia_ratio);
+    result.inertial_number =
+        inertial_number(driver.simulation().spheres(), config) * std::sqrt(result.inertia_ratio);
     result.results = evaluate_curve(result.curve, config.triaxial.confining_stress);
     for (const CurvePoint& p : result.curve) {
         if (p.deviator_stress > 0.5 * result.results.peak_deviator_stress) break;
         result.lowest_start_ratio = std::min(result.lowest_start_ratio,
                                              p.deviator_stress / config.triaxial.confining_stress);
     }
-    result.shear_seconds = seconds_since(start);
+}
+
+}  // namespace
+
+TestResult run_test(core::Simulation& simulation, const Config& config, core::Monitor& monitor,
+                    core::Checkpoint* checkpoint) {
+    core::Driver driver(simulation, config.time, monitor, checkpoint);
+    TestResult result;
+    core::Stopwatch watch;
+    bool compressed = false;
+    const auto part = core::part_of(checkpoint, "triaxial test", [&](auto& archive) {
+        archive(compressed, watch);
+        archive_result(archive, result);
+    });
+    const double solid = simulation.spheres().solid_volume();
+    if (!part.resumed()) result.porosity = 1 - solid / packing::box_dimensions(simulation).prod();
+    if (simulation.keeps_ledger()) driver.log_energies_to(result.energies);
+    if (!compressed) {
+        compress(result, driver, config, solid);
+        result.isotropic_seconds = watch.lap();
+        compressed = true;
+    }
+    shear(result, driver, config);
+    result.shear_seconds = watch.lap();
     return result;
 }
 

@@ -62,7 +62,9 @@ core::Simulation make_simulation(Sample sample, const Config& config,
                                  const core::SimulationOptions& options = {});
 
 /// Runs both stages on a simulation made of make_scene(). Throws SimulationError and Interrupted;
-/// the simulation then holds the state reached.
-TestResult run_test(core::Simulation& simulation, const Config& config, core::Monitor& monitor);
+/// the simulation then holds the state reached. With a checkpoint it can be saved and resumed; a
+/// run that resumes brings a simulation without spheres, for the same kernels.
+TestResult run_test(core::Simulation& simulation, const Config& config, core::Monitor& monitor,
+                    core::Checkpoint* checkpoint = nullptr);
 
 }  // namespace grainfield::triaxial

@@ -1,0 +1,118 @@
+#include "core/state/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <cereal/archives/binary.hpp>
+#include <cereal/types/string.hpp>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "core/state/checkpoint_file.hpp"
+
+namespace grainfield::core {
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The checkpoint in a file, its identity read.
+FoundCheckpoint open_checkpoint(const fs::path& file) {
+    FoundCheckpoint found{file, {}, {}, std::make_shared<CheckpointReader>(file)};
+    std::string version, identity;
+    StateReader archive(found.reader->stream());
+    archive(version, identity);
+    if (version != GRAINFIELD_VERSION)
+        throw FileError(fmt::format("{}: is a checkpoint of version {}; this is {}", file.string(),
+                                    version, GRAINFIELD_VERSION));
+    found.identity = nlohmann::json::parse(identity);
+    return found;
+}
+
+}  // namespace
+
+fs::path file_before(const fs::path& file) {
+    fs::path before = file;
+    before.replace_extension();
+    return (before += ".before") += file.extension();
+}
+
+std::optional<FoundCheckpoint> find_checkpoint(const fs::path& file) {
+    std::vector<std::string> bad;
+    for (const fs::path& candidate : {file, file_before(file)}) {
+        if (!fs::exists(candidate)) continue;
+        try {
+            FoundCheckpoint found = open_checkpoint(candidate);
+            found.bad = bad;
+            return found;
+        } catch (const FileError& error) {
+            bad.emplace_back(error.what());
+        }
+    }
+    if (bad.empty()) return std::nullopt;
+    throw FileError(bad.size() == 1 ? bad[0] : fmt::format("{}; {}", bad[0], bad[1]));
+}
+
+Checkpoint::Checkpoint(fs::path file, nlohmann::json identity, double interval)
+    : file_(std::move(file)),
+      identity_(std::move(identity)),
+      interval_(interval),
+      last_(Clock::now()) {}
+
+Checkpoint::~Checkpoint() = default;
+
+void Checkpoint::resume(FoundCheckpoint found) {
+    source_ = std::move(found.reader);
+    if (source_->at_end()) source_.reset();
+}
+
+bool Checkpoint::due() {
+    constexpr int calls_a_look = 16;  // the clock costs as much as a step of a few spheres
+    if (interval_ <= 0 || ++calls_ < calls_a_look) return false;
+    calls_ = 0;
+    return std::chrono::duration<double>(Clock::now() - last_).count() >= interval_;
+}
+
+void Checkpoint::save() {
+    last_ = Clock::now();  // one that fails is not tried again at once
+    write_checkpoint_file(file_, file_before(file_), [&](std::ostream& stream) {
+        StateWriter archive(stream);
+        archive(std::string(GRAINFIELD_VERSION), identity_.dump());
+        for (const Level& level : levels_) {
+            archive(level.name);
+            level.save(archive);
+        }
+    });
+    ++saves_;
+    last_ = Clock::now();
+}
+
+void Checkpoint::remove() {
+    std::error_code ignored;  // what cannot be removed is in nobody's way
+    fs::remove(file_, ignored);
+    fs::remove(file_before(file_), ignored);
+}
+
+Checkpoint::Part::Part(Checkpoint* checkpoint, std::string_view name, Save save, Load load)
+    : checkpoint_(checkpoint) {
+    if (checkpoint_ == nullptr) return;
+    if (checkpoint_->resuming()) {
+        CheckpointReader& source = *checkpoint_->source_;
+        StateReader archive(source.stream());
+        std::string found;
+        archive(found);
+        if (found != name)
+            throw FileError(
+                fmt::format("{}: holds the state of \"{}\" where that of \"{}\" is "
+                            "expected: it is of another run",
+                            checkpoint_->file_.string(), found, name));
+        load(archive);
+        resumed_ = true;
+        if (source.at_end()) checkpoint_->source_.reset();
+    }
+    checkpoint_->levels_.push_back({std::string(name), std::move(save)});
+}
+
+Checkpoint::Part::~Part() {
+    if (checkpoint_ != nullptr) checkpoint_->levels_.pop_back();
+}
+
+}  // namespace grainfield::core
