@@ -39,9 +39,12 @@ std::shared_ptr<const Conditioning> make_conditioning(const FieldOptions& option
     };
     const GridSpec& grid = generator.grid();
     const auto measurements = read_measurements(options.data, grid, only_property(options));
+    const LocalAverageCovariance covariance(grid.cell_size, generator.correlation(), grid.cells);
     return std::make_shared<const Conditioning>(
-        grid, LocalAverageCovariance(grid.cell_size, generator.correlation(), grid.cells),
-        options.cross_correlation, cell_data(options.data, measurements, grid, marginals));
+        grid, covariance, options.cross_correlation,
+        cell_data(options.data, measurements, grid, covariance, options.cross_correlation,
+                  marginals),
+        options.data);
 }
 
 }  // namespace
