@@ -98,22 +98,15 @@ class Sorter {
     Pools pools_;
 };
 
-CellCount cell_at(const GridSpec& grid, std::size_t index) {
-    const auto i = static_cast<std::int64_t>(index);
-    const auto [nx, ny, nz] = grid.cells;
-    return {static_cast<std::int32_t>(i % nx), static_cast<std::int32_t>(i / nx % ny),
-            static_cast<std::int32_t>(i / nx / ny)};
-}
-
 /// Prior covariance of G in all cells with data.
 std::vector<double> prior_of(const std::vector<CellDatum>& data, const GridSpec& grid,
                              const LocalAverageCovariance& covariance, double correlation) {
     std::vector<double> prior;
     prior.reserve(data.size() * data.size());
     for (const CellDatum& b : data) {
-        const CellCount q = cell_at(grid, b.cell);
+        const CellCount q = grid.cell_at(b.cell);
         for (const CellDatum& a : data) {
-            const CellCount p = cell_at(grid, a.cell);
+            const CellCount p = grid.cell_at(a.cell);
             prior.push_back((a.property == b.property ? 1.0 : correlation) *
                             covariance(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
         }

@@ -146,7 +146,7 @@ CirculantGenerator::CirculantGenerator(const GridSpec& grid, const CorrelationMo
             if (!best) throw too_large(grid, m);
             break;
         }
-        require_memory(grid, 40.0 * cells_of(m), "circulant");
+        require_memory(grid, 40.0 * cells_of(m), "field.method = \"circulant\"");
         const std::vector<double> eigenvalues = eigenvalues_of(grid, correlation, m);
         const Negative negative = negative_part(eigenvalues, m, gamma());
         if (negative.effect <= round_off) {

@@ -12,13 +12,6 @@
 namespace grainfield::randomfield {
 namespace {
 
-CellCount cell_at(const GridSpec& grid, std::size_t index) {
-    const auto i = static_cast<std::int64_t>(index);
-    const auto [nx, ny, nz] = grid.cells;
-    return {static_cast<std::int32_t>(i % nx), static_cast<std::int32_t>(i / nx % ny),
-            static_cast<std::int32_t>(i / nx / ny)};
-}
-
 /// Largest miss of an exact score that is taken for round-off: set to the score, the field is wrong
 /// by less than any measurement would show.
 constexpr double round_off = 1e-6;
@@ -34,7 +27,7 @@ Conditioning::Conditioning(const GridSpec& grid, LocalAverageCovariance covarian
       source_(std::move(source)),
       where_([this] {
           std::vector<CellCount> where;
-          for (const CellDatum& datum : data_) where.push_back(cell_at(grid_, datum.cell));
+          for (const CellDatum& datum : data_) where.push_back(grid_.cell_at(datum.cell));
           return where;
       }()),
       system_([this] {

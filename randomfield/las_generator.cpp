@@ -19,7 +19,9 @@ struct LasGenerator::Plan {
         : correlation(model) {
         grid.validate();
         model.validate();
-        require_memory(grid, 3.0 * static_cast<double>(grid.size()) * sizeof(double), "las");
+        // Three buffers, normals and field; with what FieldGenerator holds beside them more.
+        require_memory(grid, 5.0 * static_cast<double>(grid.size()) * sizeof(double),
+                       "field.method = \"las\"");
         grids.push_back(grid);
         while (static_cast<std::int64_t>(grids.back().size()) >
                std::max<std::int64_t>(1, stage0_cells)) {

@@ -9,7 +9,6 @@
 #include "randomfield/field_error.hpp"
 #include "randomfield/las_classic_generator.hpp"
 #include "randomfield/las_generator.hpp"
-#include "randomfield/memory_limit.hpp"
 #include "tests/randomfield/field_support.hpp"
 
 namespace grainfield::randomfield {
@@ -193,8 +192,6 @@ TEST(Las, RefusesWhatCannotBe) {
     EXPECT_NE(refused({2, 2, 2}, Vec3(1, 0, 1)).find("field.correlation_length = [1, 0, 1]"),
               std::string::npos);
     EXPECT_NE(refused({2, 2, 2}, Vec3(1, std::nan(""), 1)).find("nan"), std::string::npos);
-    EXPECT_NE(input_error([] { require_memory(GridSpec{}, 1e18, "las"); }).find("need 1e+09 GB"),
-              std::string::npos);
     GridSpec flat;
     flat.cell_size[1] = 0.0;
     EXPECT_NE(input_error([&] { LasGenerator(flat, paper_theta(1.0)); }).find("cell size"),
