@@ -80,6 +80,25 @@ LasGenerator::LasGenerator(const GridSpec& grid, const CorrelationModel& correla
     }
 }
 
+double LasGenerator::stated_error() const {
+    if (exact()) return Generator::stated_error();
+    switch (correlation().kind) {
+        case Correlation::markov:
+            return 0.05;
+        case Correlation::separable_markov:
+            return 0.15;
+        case Correlation::gaussian:
+            return 0.105;
+        case Correlation::spherical:
+            return 0.11;
+        case Correlation::matern32:
+            return 0.065;
+        case Correlation::matern52:
+            return 0.075;
+    }
+    return Generator::stated_error();
+}
+
 CellCount LasGenerator::stage_cells(std::size_t stage) const {
     if (stages_.empty()) return grid().cells;
     const CellCount& cells =

@@ -15,6 +15,7 @@
 #include "randomfield/covariance.hpp"
 #include "randomfield/field_laws.hpp"
 #include "randomfield/memory_limit.hpp"
+#include "randomfield/verification_sums.hpp"
 
 namespace grainfield::randomfield {
 namespace {
@@ -23,50 +24,6 @@ constexpr std::size_t bins = 20;
 constexpr double least_share = 0.5 / bins;  // of a bin
 constexpr std::int32_t most_lags = 32;
 constexpr double reach = 38.0;  // deviations beyond which nothing is
-
-/// Sums over realizations of numbers counted from their exact values, and of their squares.
-class Tally {
-  public:
-    Tally() = default;
-    explicit Tally(std::vector<double> exact)
-        : exact_(std::move(exact)), sum_(exact_.size(), 0.0), square_(exact_.size(), 0.0) {}
-
-    void add(std::span<const double> values) {
-        for (std::size_t i = 0; i < exact_.size(); ++i) {
-            const double off = values[i] - exact_[i];
-            sum_[i] += off;
-            square_[i] += off * off;
-        }
-    }
-    void merge(const Tally& other) {
-        for (std::size_t i = 0; i < exact_.size(); ++i) {
-            sum_[i] += other.sum_[i];
-            square_[i] += other.square_[i];
-        }
-    }
-    [[nodiscard]] double mean(std::size_t i, std::uint64_t n) const {
-        return exact_[i] + sum_[i] / static_cast<double>(n);
-    }
-    [[nodiscard]] double square(std::size_t i) const { return square_[i]; }
-    [[nodiscard]] double sum(std::size_t i) const { return sum_[i]; }
-    [[nodiscard]] std::size_t size() const { return exact_.size(); }
-
-  private:
-    std::vector<double> exact_, sum_, square_;
-};
-
-/// Mean over all pairs of cells `lag` apart along an axis of the product of their G.
-double mean_product(std::span<const double> g, const GridSpec& grid, std::size_t axis,
-                    std::int32_t lag) {
-    std::size_t stride = 1;  // from a cell to the next along the axis
-    for (std::size_t d = 0; d < axis; ++d) stride *= static_cast<std::size_t>(grid.cells[d]);
-    const std::size_t line = stride * static_cast<std::size_t>(grid.cells[axis]);
-    const std::size_t ahead = stride * static_cast<std::size_t>(lag);
-    double sum = 0.0;
-    for (std::size_t first = 0; first < g.size(); first += line)
-        for (std::size_t i = first; i + ahead < first + line; ++i) sum += g[i] * g[i + ahead];
-    return sum / static_cast<double>(g.size() / line * (line - ahead));
-}
 
 /// The mean of n realizations in its band, one of `together` numbers; all over `unit`.
 Estimate estimate(double mean, const Law& law, std::uint64_t n, std::size_t together,
@@ -93,28 +50,6 @@ VarianceMap variance_map(std::vector<double> ratio, std::uint64_t n) {
     map.ratio = std::move(ratio);
     return map;
 }
-
-/// The sums of one field.
-struct Sums {
-    Tally products;       ///< of all axes and lags
-    Tally cells;          ///< G of every cell
-    Tally shares, mean;   ///< of the property
-    double square = 0.0;  ///< mean over cells of squared distances from the row's mean
-    Tally known;          ///< conditional G of every cell
-    double largest_miss = 0.0;
-    Tally cross;
-
-    void merge(const Sums& other) {
-        products.merge(other.products);
-        cells.merge(other.cells);
-        shares.merge(other.shares);
-        mean.merge(other.mean);
-        square += other.square;
-        known.merge(other.known);
-        largest_miss = std::max(largest_miss, other.largest_miss);
-        cross.merge(other.cross);
-    }
-};
 
 /// What is expected of one field, and how it is added up.
 class Checker {
