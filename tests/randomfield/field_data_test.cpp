@@ -237,5 +237,26 @@ TEST_F(FieldData, DrawsHaveTheConditionalMeanAndVariance) {
     }
 }
 
+// E[k]/mu with data is the mean of what is drawn with them: five standard errors, 6e-7.
+TEST_F(FieldData, TheMeanRatioIsThatOfTheFieldsWithData) {
+    FieldOptions stiff =
+        options("x,y,z,value,error\n0.8,1.6,0.8,4e9,0\n0.1,0.1,0.1,1e8,2e7\n", Variable::stiffness);
+    stiff.correlation_length = paper_theta(1.0);
+    const FieldGenerator generator(GridSpec{}, stiff);
+    const int draws = 2000;
+    double sum = 0.0, square = 0.0;
+    for (int k = 0; k < draws; ++k) {
+        const BlockField field = generator.draw(static_cast<std::uint64_t>(k));
+        double mean = 0.0;
+        for (const double value : field.normal_stiffness) mean += value / 432 / 9e8;
+        sum += mean;
+        square += mean * mean;
+    }
+    const double mean = sum / draws;
+    const double error = std::sqrt((square / draws - mean * mean) / draws);
+    EXPECT_NEAR(generator.stiffness_mean_ratio(), mean, 5.0 * error);
+    EXPECT_GT(std::abs(generator.marginals(stiffness).mean_ratio() - mean), 20.0 * error);
+}
+
 }  // namespace
 }  // namespace grainfield::randomfield
