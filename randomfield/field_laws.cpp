@@ -71,7 +71,8 @@ FieldLaws::FieldLaws(const GridSpec& grid, const CorrelationModel& correlation)
     : grid_(grid),
       covariance_(grid.cell_size, correlation, grid.cells),
       powers_(orders + 1, std::vector<double>(static_cast<std::size_t>(grid.cells[1]), 0.0)) {
-    const auto [nx, ny, nz] = grid.cells;
+    // No structured binding: Clang gives none to the threads of a parallel region.
+    const std::int32_t nx = grid.cells[0], ny = grid.cells[1], nz = grid.cells[2];
 #pragma omp parallel for schedule(static)
     for (std::int32_t j = 0; j < ny; ++j) {
         for (std::int32_t k = 0; k < nz; ++k) {
@@ -169,7 +170,8 @@ Law FieldLaws::of_cells(std::size_t rows, const OfRow& function) const {
             for (std::size_t k = 0; k <= orders; ++k) one.a[k] += weight * values.back() * h[k];
         }
         for (int i = -points; i < points; ++i) {
-            const double off = values[static_cast<std::size_t>(i + points)] - one.a[0];
+            const double off =
+                values[static_cast<std::size_t>(std::ptrdiff_t{i} + points)] - one.a[0];
             const double weight = step * density(step * (i + 0.5));
             one.variance += weight * off * off;
             one.third += weight * off * off * off;

@@ -49,6 +49,7 @@ Support support_of(const LogDensity& density, const NoisyValue& measured,
                    const GaussianMoments& before) {
     const double spread = std::sqrt(before.variance);
     std::vector<double> scan;
+    scan.reserve(scan_points + 1);
     for (int i = 0; i < scan_points; ++i)
         scan.push_back(before.mean + spread * reach * (2.0 * i / (scan_points - 1) - 1.0));
     // A narrow likelihood may lie between two points of the scan: it is where the value is met.
@@ -59,6 +60,7 @@ Support support_of(const LogDensity& density, const NoisyValue& measured,
             scan.insert(std::upper_bound(scan.begin(), scan.end(), met), met);
     }
     std::vector<double> logs;
+    logs.reserve(scan.size());
     for (const double g : scan) logs.push_back(density(g));
     const auto best =
         static_cast<std::size_t>(std::max_element(logs.begin(), logs.end()) - logs.begin());

@@ -40,7 +40,8 @@ GaussianMoments by_sums(const NoisyValue& measured, double prior) {
     const double about = g(static_cast<int>(best - logs.begin()) - half);
     double sum = 0.0, first = 0.0, second = 0.0;
     for (int i = -half; i <= half; ++i) {
-        const double weight = std::exp(logs[static_cast<std::size_t>(i + half)] - *best);
+        const double weight =
+            std::exp(logs[static_cast<std::size_t>(std::ptrdiff_t{i} + half)] - *best);
         const double off = g(i) - about;
         sum += weight;
         first += weight * off;
