@@ -57,7 +57,8 @@ double normal_quantile(double p) noexcept {
         return q * polynomial(kA, r) / polynomial(kB, r);
     }
     // 1 - p is exact for p in (0.5, 1): the tails are as accurate on the right as on the left.
-    const double r = std::sqrt(-std::log(q < 0.0 ? p : 1.0 - p));
+    const double tail = q < 0.0 ? p : 1.0 - p;
+    const double r = std::sqrt(-(tail >= 0x1p-1022 ? tail_log(tail) : std::log(tail)));
     const double x = r <= kTail ? polynomial(kC, r - kTailShift) / polynomial(kD, r - kTailShift)
                                 : polynomial(kE, r - kTail) / polynomial(kF, r - kTail);
     return q < 0.0 ? -x : x;
@@ -93,7 +94,11 @@ void RandomStream::normals(std::uint64_t realization, std::uint64_t first,
     // Blocks that are worth a thread; each number is its own, whoever computes it.
     constexpr std::size_t block = 16384;
     const auto blocks = static_cast<std::ptrdiff_t>((values.size() + block - 1) / block);
-#pragma omp parallel for schedule(static) if (blocks > 2)
+    if (blocks <= 2) {  // a region of one thread would cost as much as some hundred numbers
+        vector_normals(key_, realization, first, values);
+        return;
+    }
+#pragma omp parallel for schedule(static)
     for (std::ptrdiff_t b = 0; b < blocks; ++b) {
         const std::size_t at = static_cast<std::size_t>(b) * block;
         vector_normals(key_, realization, first + at,

@@ -30,6 +30,27 @@ V polynomial(const double (&c)[8], V x) {
     return sum;
 }
 
+// tail_log() of every lane.
+template <class V>
+V logarithm(V x) {
+    const hn::DFromV<V> d;
+    const hn::RebindToUnsigned<decltype(d)> du;
+    const hn::RebindToSigned<decltype(d)> di;
+    const auto above = hn::Sub(hn::BitCast(du, x), hn::Set(du, kRootHalf));
+    const auto m = hn::BitCast(
+        d, hn::Add(hn::And(above, hn::Set(du, 0xFFFFFFFFFFFFFu)), hn::Set(du, kRootHalf)));
+    // k in [-1022, 0] as a double: added to the last bits of 2^52 + 2^51.
+    const auto k = hn::Sub(hn::BitCast(d, hn::Add(hn::ShiftRight<52>(hn::BitCast(di, above)),
+                                                  hn::Set(di, std::int64_t{0x4338000000000000}))),
+                           hn::Set(d, 0x1.8p52));
+    const auto s = hn::Div(hn::Sub(m, hn::Set(d, 1.0)), hn::Add(m, hn::Set(d, 1.0)));
+    const auto z = hn::Mul(s, s);
+    auto sum = hn::Set(d, kArtanh[9]);
+    for (int i = 8; i >= 0; --i) sum = hn::Add(hn::Mul(sum, z), hn::Set(d, kArtanh[i]));
+    const auto twice = hn::Add(s, s);
+    return hn::Add(hn::Mul(k, hn::Set(d, kLog2)), hn::Add(twice, hn::Mul(twice, hn::Mul(z, sum))));
+}
+
 // Uniforms in (0, 1) at the indices of one vector: Philox4x32-10 with a counter in each lane of 64
 // bits. What the words carry above their 32 bits is never looked at.
 template <class D, class U>
@@ -68,7 +89,7 @@ hn::Vec<D> uniforms(D d, U index, const std::array<std::uint32_t, 2>& key,
 struct Tails {
     std::size_t count = 0;
     std::size_t place[kBlock + HWY_MAX_BYTES / 8];
-    double r[kBlock + HWY_MAX_BYTES / 8];  // sqrt(-log p)
+    double r[kBlock + HWY_MAX_BYTES / 8];  // magnitude of the normal
     double p[kBlock + HWY_MAX_BYTES / 8];
 };
 
@@ -103,12 +124,10 @@ void normals(const std::array<std::uint32_t, 2>& key, std::uint64_t realization,
             tails.p[tails.count] = uniform[i];
             tails.count += std::abs(uniform[i] - 0.5) > kCentre ? 1 : 0;
         }
-        for (std::size_t t = 0; t < tails.count; ++t) {
-            const double p = tails.p[t];
-            tails.r[t] = -std::log(p < 0.5 ? p : 1.0 - p);
-        }
+        // What the last vector holds beyond the count is some normal number or none, and not used.
         for (std::size_t t = 0; t < tails.count; t += n) {
-            const auto r = hn::Sqrt(hn::LoadU(d, tails.r + t));
+            const auto p = hn::LoadU(d, tails.p + t);
+            const auto r = hn::Sqrt(hn::Neg(logarithm(hn::Min(p, hn::Sub(hn::Set(d, 1.0), p)))));
             const auto x = hn::Sub(r, hn::Set(d, kTailShift));
             hn::StoreU(hn::Div(polynomial(kC, x), polynomial(kD, x)), d, tails.r + t);
         }

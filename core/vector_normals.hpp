@@ -8,8 +8,8 @@
 namespace grainfield::core {
 
 /// values[i] = normal_quantile of the uniform at (realization, first + i) under a RandomStream's
-/// key: the same bits as one by one (same operations in the same order, logarithms by the same
-/// function), on every instruction set.
+/// key: the same bits as one by one (same operations in the same order, each rounded on its own),
+/// on every instruction set.
 void vector_normals(const std::array<std::uint32_t, 2>& key, std::uint64_t realization,
                     std::uint64_t first, std::span<double> values) noexcept;
 

@@ -7,13 +7,47 @@
 
 #include "core/errors.hpp"
 #include "core/random.hpp"
+#include "randomfield/memory_limit.hpp"
+#include "randomfield/property_limits.hpp"
 
 namespace grainfield::randomfield {
 namespace {
 
-FieldOptions checked(const FieldOptions& options) {
+FieldOptions checked(const FieldOptions& options, const GridSpec& grid) {
     options.validate();
+    grid.validate();
+    // At most at once: three buffers of the generator, G of both properties, and both properties.
+    require_memory(grid, 7.0 * static_cast<double>(grid.size()) * sizeof(double),
+                   "one realization");
     return options;
+}
+
+/// Data may lift a normal distribution, which has no bounds of its own, beyond what the property
+/// can be.
+void check_reach(const FieldOptions& options, const RowMarginals& rows,
+                 const Conditioning* conditioning) {
+    const Property property = rows.property();
+    const MarginalKind kind =
+        (property == Property::friction_angle ? options.friction : options.stiffness).kind;
+    if (conditioning == nullptr || !options.random(property) || kind != MarginalKind::normal)
+        return;
+    const PropertyLimits limits = limits_of(property);
+    const GridSpec& grid = rows.grid();
+    const std::vector<double> mean = conditioning->mean(property);
+    const std::vector<double> variance = conditioning->variance(property);
+    for (std::size_t c = 0; c < mean.size(); ++c) {
+        const CellCount cell = grid.cell_at(c);
+        for (const double side : {-most_deviations, most_deviations}) {
+            const double value = rows.row(cell[1])(mean[c] + side * std::sqrt(variance[c]));
+            if (limits.contains(value)) continue;
+            throw InputError(fmt::format(
+                "{}: with these values {}.marginal = \"normal\" reaches {:.4g} {} at {:+g} "
+                "standard deviations in cell ({}, {}, {}), allowed is {}: choose "
+                "\"truncated-normal\" or \"beta\", a smaller cov, or other values",
+                options.data, limits.key, value, limits.unit, side, cell[0], cell[1], cell[2],
+                limits.text));
+        }
+    }
 }
 
 /// The property that a data file is about where its header does not say so.
@@ -39,9 +73,12 @@ std::shared_ptr<const Conditioning> make_conditioning(const FieldOptions& option
     };
     const GridSpec& grid = generator.grid();
     const auto measurements = read_measurements(options.data, grid, only_property(options));
+    const LocalAverageCovariance covariance(grid.cell_size, generator.correlation(), grid.cells);
     return std::make_shared<const Conditioning>(
-        grid, LocalAverageCovariance(grid.cell_size, generator.correlation(), grid.cells),
-        options.cross_correlation, cell_data(options.data, measurements, grid, marginals));
+        grid, covariance, options.cross_correlation,
+        cell_data(options.data, measurements, grid, covariance, options.cross_correlation,
+                  marginals),
+        options.data);
 }
 
 }  // namespace
@@ -53,12 +90,15 @@ void BlockField::map(std::span<const double> column, std::span<const std::size_t
 }
 
 FieldGenerator::FieldGenerator(const GridSpec& grid, const FieldOptions& options)
-    : options_(checked(options)),
+    : options_(checked(options, grid)),
       generator_(make_generator(grid, {options.correlation_length, options.correlation},
                                 options.method, options.stage0_cells)),
       friction_(options.friction, Property::friction_angle, grid, generator_->gamma()),
       stiffness_(options.stiffness, Property::normal_stiffness, grid, generator_->gamma()),
-      conditioning_(make_conditioning(options, *generator_, friction_, stiffness_)) {}
+      conditioning_(make_conditioning(options, *generator_, friction_, stiffness_)) {
+    check_reach(options_, friction_, conditioning_.get());
+    check_reach(options_, stiffness_, conditioning_.get());
+}
 
 BlockField FieldGenerator::gaussian(std::uint64_t realization) const {
     BlockField field;
@@ -114,6 +154,17 @@ BlockField FieldGenerator::draw_unconditional(std::uint64_t realization) const {
     BlockField field = gaussian(realization);
     transform(field);
     return field;
+}
+
+double FieldGenerator::stiffness_mean_ratio() const {
+    if (!conditioning_ || !options_.random(Property::normal_stiffness))
+        return stiffness_.mean_ratio();
+    const std::vector<double> mean = conditioning_->mean(Property::normal_stiffness);
+    const std::vector<double> variance = conditioning_->variance(Property::normal_stiffness);
+    double sum = 0.0;
+    for (std::size_t c = 0; c < mean.size(); ++c)
+        sum += stiffness_.row(grid().cell_at(c)[1]).mean_given(mean[c], variance[c]);
+    return sum / static_cast<double>(mean.size()) / stiffness_.point_mean();
 }
 
 double FieldGenerator::covariance_error() const {

@@ -41,7 +41,7 @@ class FieldGenerator {
     ///   G_stiffness = rho G_friction + sqrt(1 - rho^2) G',  rho = options.cross_correlation;
     /// friction, and at rho = 0 stiffness too, is the same whether drawn alone or with the other.
     /// Data change the field (conditioning.hpp), but not the random numbers behind it.
-    /// SimulationError where a value is none that its property can have.
+    /// InputError where a value is none that its property can have.
     [[nodiscard]] BlockField draw(std::uint64_t realization) const;
     /// The same as if there were no data.
     [[nodiscard]] BlockField draw_unconditional(std::uint64_t realization) const;
@@ -57,8 +57,8 @@ class FieldGenerator {
     }
     /// The data in force, or nullptr.
     [[nodiscard]] const Conditioning* conditioning() const { return conditioning_.get(); }
-    /// E[k_n of a cell] over that of a point, before any data, see RowMarginals::mean_ratio() [-].
-    [[nodiscard]] double stiffness_mean_ratio() const { return stiffness_.mean_ratio(); }
+    /// E[k_n of a cell], given the data, over that of a point [-].
+    [[nodiscard]] double stiffness_mean_ratio() const;
     /// Largest error of the generator's covariances in units of gamma, without sampling: round-off
     /// where the method is exact. InputError above max_error_cells cells [-].
     [[nodiscard]] double covariance_error() const;

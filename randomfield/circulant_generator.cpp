@@ -34,6 +34,8 @@ struct Free {
 };
 using Buffer = std::unique_ptr<double[], Free>;
 
+constexpr double longest_period = 12.0;  // correlation lengths
+
 // Smallest even number of at least n with no prime factors but 2, 3 and 5: fast to transform.
 std::int32_t fast_size(std::int32_t n) {
     for (std::int32_t size = n + n % 2;; size += 2) {
@@ -123,9 +125,23 @@ Negative negative_part(std::span<const double> eigenvalues, const CellCount& m, 
 InputError too_large(const GridSpec& grid, const CellCount& period) {
     return InputError(fmt::format(
         "random field: {} x {} x {} cells with field.method = \"circulant\" need a period of {} x "
-        "{} x {}: at most {:.3g} cells are allowed; use field.method = \"las\"",
+        "{} x {} cells or more: at most 2^25 = {:.0f} are allowed; lower packing.blocks, or use "
+        "field.method = \"las\"",
         grid.cells[0], grid.cells[1], grid.cells[2], period[0], period[1], period[2],
         CirculantGenerator::max_period_cells));
+}
+
+/// Correlation lengths of the same ratios whose longest period is just allowed: there is none
+/// longer that could do.
+Vec3 longest_that_fits(const GridSpec& grid, const Vec3& theta) {
+    double fits = 0.0, too_long = 1.0;
+    for (int step = 0; step < 50; ++step) {
+        const double middle = 0.5 * (fits + too_long);
+        const bool good = cells_of(period_of(grid, middle * theta, longest_period)) <=
+                          CirculantGenerator::max_period_cells;
+        (good ? fits : too_long) = middle;
+    }
+    return fits * theta;
 }
 
 }  // namespace
@@ -137,16 +153,19 @@ struct CirculantGenerator::Plan {
 CirculantGenerator::CirculantGenerator(const GridSpec& grid, const CorrelationModel& correlation)
     : Generator(grid, correlation) {
     std::optional<Negative> best;
+    std::optional<CellCount> too_many;
     CellCount best_period{}, tried{};
-    for (const double lengths : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0}) {
+    for (const double lengths :
+         {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0, longest_period}) {
         const CellCount m = period_of(grid, correlation.length, lengths);
         if (best && m == tried) continue;
         tried = m;
         if (cells_of(m) > max_period_cells) {
             if (!best) throw too_large(grid, m);
+            too_many = m;
             break;
         }
-        require_memory(grid, 40.0 * cells_of(m), "circulant");
+        require_memory(grid, 40.0 * cells_of(m), "field.method = \"circulant\"");
         const std::vector<double> eigenvalues = eigenvalues_of(grid, correlation, m);
         const Negative negative = negative_part(eigenvalues, m, gamma());
         if (negative.effect <= round_off) {
@@ -160,15 +179,25 @@ CirculantGenerator::CirculantGenerator(const GridSpec& grid, const CorrelationMo
         }
     }
     const Vec3& theta = correlation.length;
+    std::string hint;
+    if (too_many) {
+        const Vec3 fits = longest_that_fits(grid, theta);
+        hint = fmt::format(
+            "the next period, {} x {} x {}, has more than the 2^25 = {:.0f} cells that are "
+            "allowed; "
+            "periods of {:g} correlation lengths fit up to about [{:.3g}, {:.3g}, {:.3g}] m; ",
+            (*too_many)[0], (*too_many)[1], (*too_many)[2], max_period_cells, longest_period,
+            fits[0], fits[1], fits[2]);
+    }
     throw InputError(fmt::format(
         "field.method = \"circulant\" with field.correlation = \"{}\" and "
         "field.correlation_length = [{}, {}, {}] m: no period is allowed for {} x {} x {} cells "
         "whose eigenvalues are not negative; with {} x {} x {} the most negative one is {:.2e} of "
         "the largest, and clipping would change covariances by up to {:.2e} gamma (at most {:.0e} "
-        "is allowed); use field.method = \"cholesky\" or \"las\"",
+        "is allowed); {}use field.method = \"cholesky\" or \"las\"",
         name_of(correlation.kind), theta[0], theta[1], theta[2], grid.cells[0], grid.cells[1],
         grid.cells[2], best_period[0], best_period[1], best_period[2], best->least, best->effect,
-        round_off));
+        round_off, hint));
 }
 
 CirculantGenerator::~CirculantGenerator() = default;

@@ -7,41 +7,27 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/files/text_file.hpp"
 
 namespace grainfield::randomfield {
 namespace {
 
-CellCount cell_at(const GridSpec& grid, std::size_t index) {
-    const auto i = static_cast<std::int64_t>(index);
-    const auto [nx, ny, nz] = grid.cells;
-    return {static_cast<std::int32_t>(i % nx), static_cast<std::int32_t>(i / nx % ny),
-            static_cast<std::int32_t>(i / nx / ny)};
-}
-
-LowerFactor factor_of(const std::vector<double>& system, std::size_t size) {
-    if (size > LowerFactor::max_size)
-        throw InputError(fmt::format("field.data: values in {} cells: at most {} cells are allowed",
-                                     size, LowerFactor::max_size));
-    auto factor = LowerFactor::of(system, size);
-    if (!factor || factor->nugget() > 0.0)
-        throw InputError(
-            "field.data: some exact values follow from others to round-off (neighbours at a very "
-            "long correlation length, or both properties of a block at field.cross_correlation = "
-            "1 or -1): give values an error, or leave some out");
-    return *std::move(factor);
-}
+/// Largest miss of an exact score that is taken for round-off: set to the score, the field is wrong
+/// by less than any measurement would show.
+constexpr double round_off = 1e-6;
 
 }  // namespace
 
 Conditioning::Conditioning(const GridSpec& grid, LocalAverageCovariance covariance,
-                           double correlation, std::vector<CellDatum> data)
+                           double correlation, std::vector<CellDatum> data, std::string source)
     : grid_(grid),
       of_lag_(std::move(covariance)),
       correlation_(correlation),
       data_(std::move(data)),
+      source_(std::move(source)),
       where_([this] {
           std::vector<CellCount> where;
-          for (const CellDatum& datum : data_) where.push_back(cell_at(grid_, datum.cell));
+          for (const CellDatum& datum : data_) where.push_back(grid_.cell_at(datum.cell));
           return where;
       }()),
       system_([this] {
@@ -54,7 +40,60 @@ Conditioning::Conditioning(const GridSpec& grid, LocalAverageCovariance covarian
           }
           return system;
       }()),
-      factor_(factor_of(system_, data_.size())) {}
+      factor_(factor()) {
+    // Fields are as smooth as their covariance has them, data may not be: what these make of the
+    // exact values comes first, and with a margin for the fields.
+    std::vector<double> scores;
+    for (const CellDatum& datum : data_) scores.push_back(datum.score);
+    const std::vector<double> v = weights(std::move(scores));
+    const std::size_t n = data_.size();
+    for (std::size_t a = 0; a < n; ++a) {
+        if (data_[a].variance > 0.0) continue;
+        double found = 0.0;
+        for (std::size_t b = 0; b < n; ++b) found += system_[a + b * n] * v[b];
+        check_known(a, found, 0.1 * round_off);
+    }
+}
+
+LowerFactor Conditioning::factor() const {
+    const std::size_t n = data_.size();
+    if (n > LowerFactor::max_size)
+        throw InputError(fmt::format("{}: values in {} cells: at most {} cells are allowed",
+                                     source_, n, LowerFactor::max_size));
+    const auto leading = [&](std::size_t size) {
+        std::vector<double> corner;
+        for (std::size_t b = 0; b < size; ++b)
+            corner.insert(corner.end(), system_.begin() + static_cast<std::ptrdiff_t>(b * n),
+                          system_.begin() + static_cast<std::ptrdiff_t>(b * n + size));
+        auto factor = LowerFactor::of(std::move(corner), size);
+        if (factor && factor->nugget() > 0.0) factor.reset();
+        return factor;
+    };
+    if (auto factor = leading(n)) return *std::move(factor);
+    // The first datum that follows from those before it.
+    std::size_t good = 0, bad = n;
+    while (bad - good > 1) {
+        const std::size_t middle = (good + bad) / 2;
+        (leading(middle) ? good : bad) = middle;
+    }
+    core::throw_at_line(
+        source_, data_[bad - 1].line,
+        fmt::format("value = {}: follows from other values to round-off (of neighbours at a very "
+                    "long correlation length, or of both properties of a block at "
+                    "field.cross_correlation = 1 or -1): give it an error, or leave it out",
+                    data_[bad - 1].value));
+}
+
+void Conditioning::check_known(std::size_t datum, double found, double allowed) const {
+    const double score = data_[datum].score;
+    if (std::abs(found - score) < allowed) return;
+    core::throw_at_line(
+        source_, data_[datum].line,
+        fmt::format("value = {}: exact, but too much at odds with other values for a field of "
+                    "this correlation length to honour it in double precision (G is missed by "
+                    "{:.1e}, at most {:.0e} is allowed): give it an error, or leave it out",
+                    data_[datum].value, std::abs(found - score), allowed));
+}
 
 double Conditioning::covariance(Property property, const CellCount& cell, std::size_t datum) const {
     const CellCount& other = where_[datum];
@@ -107,15 +146,13 @@ void Conditioning::apply(std::span<double> friction, std::span<double> stiffness
     const std::vector<double> v = weights(std::move(residual));
     if (!friction.empty()) add(Property::friction_angle, v, friction);
     if (!stiffness.empty()) add(Property::normal_stiffness, v, stiffness);
-    for (const CellDatum& datum : data_) {
+    for (std::size_t m = 0; m < data_.size(); ++m) {
+        const CellDatum& datum = data_[m];
         if (datum.variance > 0.0) continue;
         // Round-off of the large weights that neighbours at odds with each other have.
         double& known =
             (datum.property == Property::friction_angle ? friction : stiffness)[datum.cell];
-        if (!(std::abs(known - datum.score) < 1e-6))
-            throw SimulationError(
-                "field.data: the exact values are too much at odds with the correlation length to "
-                "be honoured in double precision: give them an error");
+        check_known(m, known, round_off);
         known = datum.score;
     }
 }
@@ -125,6 +162,8 @@ std::vector<double> Conditioning::mean(Property property) const {
     for (const CellDatum& datum : data_) scores.push_back(datum.score);
     std::vector<double> mean(grid_.size(), 0.0);
     add(property, weights(std::move(scores)), mean);
+    for (const CellDatum& datum : data_)  // as apply() does
+        if (datum.property == property && datum.variance == 0.0) mean[datum.cell] = datum.score;
     return mean;
 }
 
@@ -138,6 +177,8 @@ std::vector<double> Conditioning::variance(Property property) const {
         for (const double x : k) known += x * x;
         variance[index] = std::max(0.0, of_lag_.gamma() - known);
     });
+    for (const CellDatum& datum : data_)
+        if (datum.property == property && datum.variance == 0.0) variance[datum.cell] = 0.0;
     return variance;
 }
 

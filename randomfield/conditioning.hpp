@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "randomfield/covariance.hpp"
@@ -20,14 +21,16 @@ namespace grainfield::randomfield {
 /// the data exactly. K is C for one property and rho C between the two, C that of local averages.
 class Conditioning {
   public:
-    /// covariance: C by lag in cells; correlation: rho in [-1, 1]. InputError where the data say
-    /// the same twice (A K A^T + R is singular).
+    /// covariance: C by lag in cells; correlation: rho in [-1, 1]; source: the file of the data,
+    /// for messages. InputError with file and line where the data say the same twice (A K A^T + R
+    /// is singular), or are so much at odds that double precision cannot honour the exact ones.
     Conditioning(const GridSpec& grid, LocalAverageCovariance covariance, double correlation,
-                 std::vector<CellDatum> data);
+                 std::vector<CellDatum> data, std::string source = "field.data");
 
     /// Replaces the fields of friction angle and stiffness, of one number a cell each, or empty
     /// where that property is not random (and has no data). errors: a standard normal a datum.
-    /// Safe from many threads.
+    /// Safe from many threads. InputError with file and line where an exact value is lost to
+    /// round-off.
     void apply(std::span<double> friction, std::span<double> stiffness,
                std::span<const double> errors) const;
 
@@ -38,6 +41,8 @@ class Conditioning {
     [[nodiscard]] std::vector<double> variance(Property property) const;
 
   private:
+    LowerFactor factor() const;
+    void check_known(std::size_t datum, double found, double allowed) const;
     double between(Property a, Property b) const { return a == b ? 1.0 : correlation_; }
     /// Covariance of a property in a cell with a datum.
     double covariance(Property property, const CellCount& cell, std::size_t datum) const;
@@ -50,6 +55,7 @@ class Conditioning {
     LocalAverageCovariance of_lag_;
     double correlation_;
     std::vector<CellDatum> data_;
+    std::string source_;
     std::vector<CellCount> where_;  ///< cells of the data
     std::vector<double> system_;    ///< A K A^T + R, column by column
     LowerFactor factor_;            ///< of it

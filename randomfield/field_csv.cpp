@@ -12,11 +12,21 @@
 namespace grainfield::randomfield {
 namespace {
 
-void append_rows(std::string& text, std::uint64_t realization, const BlockField& field) {
+/// Written out as it grows: a large field's text is several times its numbers.
+void write_rows(std::ostream& out, std::uint64_t realization, const BlockField& field,
+                core::Monitor& monitor) {
     const auto [nx, ny, nz] = field.grid.cells;
+    constexpr std::size_t much = std::size_t{1} << 20;  // [B]
+    std::string text;
+    const auto flush = [&] {
+        out.write(text.data(), static_cast<std::streamsize>(text.size()));
+        text.clear();
+        if (monitor.stop_requested()) throw Interrupted("interrupted: no fields were written");
+    };
     std::size_t cell = 0;
-    for (std::int32_t k = 0; k < nz; ++k) {
+    for (std::int32_t k = 0; k < nz && out; ++k) {
         for (std::int32_t j = 0; j < ny; ++j) {
+            if (text.size() > much) flush();
             for (std::int32_t i = 0; i < nx; ++i, ++cell) {
                 fmt::format_to(std::back_inserter(text), "{},{},{},{},", realization, i, j, k);
                 core::append_number(text, field.G[cell]);
@@ -28,22 +38,22 @@ void append_rows(std::string& text, std::uint64_t realization, const BlockField&
             }
         }
     }
+    flush();
 }
 
 }  // namespace
 
 void write_field_csv(const std::filesystem::path& file, const std::filesystem::path& target,
                      const FieldGenerator& generator, std::uint64_t count,
-                     const DeterministicValues& deterministic) {
+                     const DeterministicValues& deterministic, core::Monitor& monitor) {
     errno = 0;
     std::ofstream out(file, std::ios::binary);
-    std::string text = "realization,i,j,k,G,friction_angle,normal_stiffness\n";
+    out << "realization,i,j,k,G,friction_angle,normal_stiffness\n";
     for (std::uint64_t realization = 0; realization < count && out; ++realization) {
         BlockField field = generator.draw(realization);
         complete(field, deterministic);
-        append_rows(text, realization, field);
-        out.write(text.data(), static_cast<std::streamsize>(text.size()));
-        text.clear();
+        write_rows(out, realization, field, monitor);
+        report_progress(monitor, realization + 1, count);
     }
     out.close();
     if (!out) {

@@ -3,13 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <string>
-#include <utility>
 
 #include "core/files/text_file.hpp"
-#include "randomfield/marginals.hpp"
 #include "randomfield/property_limits.hpp"
 
 namespace grainfield::randomfield {
@@ -92,14 +88,6 @@ std::string without_spaces(std::string_view text) {
     return kept;
 }
 
-/// Measurements of one property in one cell, so far.
-struct Pool {
-    double precision = 0.0;  ///< sum of 1 / variance [-]
-    double weighted = 0.0;   ///< sum of score / variance [-]
-    const Measurement* exact = nullptr;
-    double exact_score = 0.0;
-};
-
 }  // namespace
 
 std::vector<Measurement> read_measurements(const std::filesystem::path& path, const GridSpec& grid,
@@ -124,59 +112,6 @@ std::vector<Measurement> read_measurements(const std::filesystem::path& path, co
     if (measurements.empty())
         core::throw_at_line(path, lines.number(), "no values follow the header");
     return measurements;
-}
-
-std::vector<CellDatum> cell_data(const std::filesystem::path& path,
-                                 const std::vector<Measurement>& measurements, const GridSpec& grid,
-                                 const std::function<const RowMarginals*(Property)>& marginals) {
-    std::map<std::pair<Property, std::size_t>, Pool> pools;
-    for (const Measurement& m : measurements) {
-        const PropertyLimits limits = limits_of(m.property);
-        const RowMarginals* rows = marginals(m.property);
-        if (rows == nullptr)
-            core::throw_at_line(
-                path, m.line,
-                fmt::format("property = {}: field.variable does not make it random", limits.name));
-        const std::size_t cell = grid.index_at(m.position);
-        const auto nx = static_cast<std::size_t>(grid.cells[0]);
-        const auto ny = static_cast<std::size_t>(grid.cells[1]);
-        const Marginal& marginal = rows->row(static_cast<std::int32_t>(cell / nx % ny));
-        const Interval range = marginal.range();
-        const bool inside = m.value > range.low && m.value < range.high;
-        const double score = inside ? marginal.score(m.value) : 0.0;
-        const double slope = inside && std::isfinite(score) ? marginal.slope(score) : 0.0;
-        if (!(slope > 0.0))
-            core::throw_at_line(
-                path, m.line,
-                fmt::format("value = {}: outside what {}.marginal allows here, between {:.6g} and "
-                            "{:.6g} {}",
-                            m.value, limits.key, range.low, range.high, limits.unit));
-        Pool& pool = pools[{m.property, cell}];
-        if (m.error > 0.0) {
-            const double precision = (slope / m.error) * (slope / m.error);
-            pool.precision += precision;
-            pool.weighted += precision * score;
-        } else if (pool.exact == nullptr) {
-            pool.exact = &m;
-            pool.exact_score = score;
-        } else if (pool.exact->value != m.value) {
-            core::throw_at_line(
-                path, m.line,
-                fmt::format("value = {}: exact, and so is the value {} of line {} in the same "
-                            "block: give one of them an error, or leave one out",
-                            m.value, pool.exact->value, pool.exact->line));
-        }
-    }
-    std::vector<CellDatum> data;
-    for (const auto& [where, pool] : pools) {
-        CellDatum datum{where.first, where.second, pool.exact_score, 0.0};
-        if (pool.exact == nullptr) {
-            datum.score = pool.weighted / pool.precision;
-            datum.variance = 1.0 / pool.precision;
-        }
-        data.push_back(datum);
-    }
-    return data;
 }
 
 }  // namespace grainfield::randomfield

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "randomfield/covariance.hpp"
 #include "randomfield/grid.hpp"
 #include "randomfield/marginal_options.hpp"
 
@@ -37,15 +38,22 @@ struct CellDatum {
     std::size_t cell = 0;   ///< GridSpec::index() [-]
     double score = 0.0;     ///< the measured G [-]
     double variance = 0.0;  ///< of its error, 0: exact [-]
+    double value = 0.0;     ///< as measured (several: weighed by their precision) [rad or Pa]
+    std::int32_t line = 0;  ///< of the first measurement behind it, for messages [-]
 };
 
-/// Turns measurements into scores by the marginal of their cell's row, the error by the marginal's
-/// slope there, and combines those of one cell by their precision (an exact value outweighs all
-/// others). marginals(property): nullptr where that property is not random. InputError with file
-/// and line: a property that is not random, a value outside the marginal's range, two different
-/// exact values in one cell.
+/// Measurements as knowledge of G, by the marginal of their cell's row. Those of one cell are
+/// combined by their precision; an exact value outweighs all others. Where there is an error, value
+/// = T(G) + error e is not normal in G; the datum that stands for it is matched to the moments of
+/// all cells with data together (site_matching.hpp), exactly for a single one. A value with an
+/// error may lie outside the marginal's range. covariance: C by lag in cells; correlation: rho
+/// between the two properties; marginals(property): nullptr where that property is not random.
+/// InputError with file and line: a property that is not random, an exact value outside the
+/// marginal's range, a value further outside than its error explains, an error too small to be told
+/// from 0, two different exact values in one cell, too many cells.
 std::vector<CellDatum> cell_data(const std::filesystem::path& path,
                                  const std::vector<Measurement>& measurements, const GridSpec& grid,
+                                 const LocalAverageCovariance& covariance, double correlation,
                                  const std::function<const RowMarginals*(Property)>& marginals);
 
 }  // namespace grainfield::randomfield

@@ -21,12 +21,6 @@ void check_size(const GridSpec& grid, std::size_t most) {
     }
 }
 
-CellCount cell_at(const GridSpec& grid, Eigen::Index index) {
-    const auto i = static_cast<std::int32_t>(index);
-    return {i % grid.cells[0], i / grid.cells[0] % grid.cells[1],
-            i / grid.cells[0] / grid.cells[1]};
-}
-
 }  // namespace
 
 Eigen::MatrixXd linear_map(const Generator& generator) {
@@ -49,9 +43,9 @@ Eigen::MatrixXd exact_covariance(const GridSpec& grid, const CorrelationModel& c
     const auto n = static_cast<Eigen::Index>(grid.size());
     Eigen::MatrixXd covariance(n, n);
     for (Eigen::Index b = 0; b < n; ++b) {
-        const CellCount q = cell_at(grid, b);
+        const CellCount q = grid.cell_at(static_cast<std::size_t>(b));
         for (Eigen::Index a = 0; a < n; ++a) {
-            const CellCount p = cell_at(grid, a);
+            const CellCount p = grid.cell_at(static_cast<std::size_t>(a));
             covariance(a, b) = of_lag(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
         }
     }
@@ -76,9 +70,9 @@ CovarianceError covariance_error(const Generator& generator) {
         // Symmetric: the columns up to the block's last row do.
         product.noalias() = map.topRows(first + rows) * map.middleRows(first, rows).transpose();
         for (Eigen::Index b = 0; b < rows; ++b) {
-            const CellCount q = cell_at(grid, first + b);
+            const CellCount q = grid.cell_at(static_cast<std::size_t>(first + b));
             for (Eigen::Index a = 0; a <= first + b; ++a) {
-                const CellCount p = cell_at(grid, a);
+                const CellCount p = grid.cell_at(static_cast<std::size_t>(a));
                 const double exact = of_lag(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
                 error.covariance = std::max(error.covariance, std::abs(product(a, b) - exact));
             }

@@ -17,8 +17,20 @@ void complete(BlockField& field, const DeterministicValues& deterministic) {
     }
 }
 
+void report_progress(core::Monitor& monitor, std::uint64_t realization, std::uint64_t count) {
+    if (monitor.stop_requested()) throw Interrupted("interrupted: no fields were written");
+    monitor.progress(static_cast<double>(realization) / static_cast<double>(count), -1, "");
+}
+
 void write_fields(const std::filesystem::path& path, const FieldGenerator& generator,
                   std::uint64_t count, const DeterministicValues& deterministic) {
+    core::Monitor nobody;
+    write_fields(path, generator, count, deterministic, nobody);
+}
+
+void write_fields(const std::filesystem::path& path, const FieldGenerator& generator,
+                  std::uint64_t count, const DeterministicValues& deterministic,
+                  core::Monitor& monitor) {
     const std::string suffix = path.extension().string();
     if (suffix != ".csv" && suffix != ".h5") {
         throw InputError(fmt::format("{}: fields are written as .csv or .h5, not \"{}\"",
@@ -26,11 +38,11 @@ void write_fields(const std::filesystem::path& path, const FieldGenerator& gener
     }
     if (count == 0) throw InputError("realizations = 0: must be at least 1");
     if (suffix == ".h5") {
-        core::write_file_atomically(path, fields_as_h5(generator, count, deterministic));
+        core::write_file_atomically(path, fields_as_h5(generator, count, deterministic, monitor));
         return;
     }
     core::AtomicFile file(path);
-    write_field_csv(file.path(), path, generator, count, deterministic);
+    write_field_csv(file.path(), path, generator, count, deterministic, monitor);
     file.commit();
 }
 

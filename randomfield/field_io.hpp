@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "core/monitor.hpp"
 #include "randomfield/block_field.hpp"
 
 namespace grainfield::randomfield {
@@ -20,9 +21,12 @@ struct DeterministicValues {
 /// .h5   datasets G, friction_angle, normal_stiffness (and G_stiffness where both are random) of
 ///       shape [count][nz][ny][nx]; cell_size and correlation_length [3] in metres; attributes
 ///       cells (nx, ny, nz) and seed. All fields in memory.
-/// The file appears whole or not at all. InputError for another suffix or count 0, FileError where
-/// it cannot be written.
+/// The file appears whole or not at all. InputError for another suffix, count 0 or more than fits
+/// the memory, FileError where it cannot be written, Interrupted where the monitor says so.
 void write_fields(const std::filesystem::path& path, const FieldGenerator& generator,
                   std::uint64_t count, const DeterministicValues& deterministic);
+void write_fields(const std::filesystem::path& path, const FieldGenerator& generator,
+                  std::uint64_t count, const DeterministicValues& deterministic,
+                  core::Monitor& monitor);
 
 }  // namespace grainfield::randomfield

@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 #include "randomfield/marginals.hpp"
+#include "randomfield/property_limits.hpp"
 
 namespace grainfield::randomfield {
 namespace {
@@ -30,10 +31,35 @@ void FieldOptions::validate() const {
 
     require(std::abs(cross_correlation) <= 1.0, "field.cross_correlation",
             fmt::format("{}", cross_correlation),
-            "the correlation matrix [[1, rho], [rho, 1]] is not positive definite: rho must be in "
-            "[-1, 1]");
+            "must be in [-1, 1]: beyond, [[1, rho], [rho, 1]] is no correlation matrix");
     randomfield::validate(friction, Property::friction_angle, "field.friction");
     randomfield::validate(stiffness, Property::normal_stiffness, "field.stiffness");
+}
+
+std::vector<std::string> unused_keys(const FieldOptions& options) {
+    std::vector<std::string> lines;
+    const FieldOptions defaults;
+    for (const Property property : {Property::friction_angle, Property::normal_stiffness}) {
+        if (!options.random(property)) continue;
+        const bool friction = property == Property::friction_angle;
+        const MarginalOptions& set = friction ? options.friction : options.stiffness;
+        const MarginalOptions& usual = friction ? defaults.friction : defaults.stiffness;
+        const bool bounded = set.kind == MarginalKind::bounded;
+        const bool window =
+            bounded || set.kind == MarginalKind::truncated_normal || set.kind == MarginalKind::beta;
+        const auto check = [&](const char* name, bool used, bool changed) {
+            if (!used && changed)
+                lines.push_back(fmt::format("{}.{} has no effect with {}.marginal = \"{}\"",
+                                            limits_of(property).key, name, limits_of(property).key,
+                                            name_of(set.kind)));
+        };
+        check("minimum", window, set.minimum && set.minimum != usual.minimum);
+        check("maximum", window, set.maximum && set.maximum != usual.maximum);
+        check("s", bounded, set.s != usual.s);
+        check("mean", !bounded, set.mean != usual.mean);
+        check("cov", !bounded, set.cov != usual.cov);
+    }
+    return lines;
 }
 
 void FieldOptions::validate(const GridSpec& grid) const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "kernels/vec3.hpp"
 #include "randomfield/correlation.hpp"
@@ -48,5 +49,9 @@ struct FieldOptions {
     void validate() const;
     void validate(const GridSpec& grid) const;
 };
+
+/// A line for each key that is set, but that the marginal in force has no use for:
+/// "field.friction.s = 3 has no effect with ...".
+std::vector<std::string> unused_keys(const FieldOptions& options);
 
 }  // namespace grainfield::randomfield

@@ -29,6 +29,8 @@ class Generator {
     [[nodiscard]] virtual std::size_t normals() const = 0;
     /// Whether M M^T is the exact covariance but for round-off.
     [[nodiscard]] virtual bool exact() const = 0;
+    /// Largest covariance error that the method is documented to have, in units of gamma [-].
+    [[nodiscard]] virtual double stated_error() const { return exact() ? 1e-10 : 0.05; }
     /// Number of subdivisions between stage 0 and the field; 0 where nothing is subdivided [-].
     [[nodiscard]] virtual std::size_t subdivisions() const { return 0; }
     /// Largest |M M^T - C| in units of gamma where the generator's own algebra gives it at little

@@ -27,6 +27,13 @@ struct GridSpec {
                    (static_cast<std::size_t>(j) +
                     static_cast<std::size_t>(cells[1]) * static_cast<std::size_t>(k));
     }
+    /// The cell (i, j, k) at an index.
+    [[nodiscard]] CellCount cell_at(std::size_t index) const {
+        const auto i = static_cast<std::int64_t>(index);
+        return {static_cast<std::int32_t>(i % cells[0]),
+                static_cast<std::int32_t>(i / cells[0] % cells[1]),
+                static_cast<std::int32_t>(i / cells[0] / cells[1])};
+    }
     /// Index of the cell of a block (i, j, k), the paper's mapping of a sphere to the field: the
     /// sphere keeps the block it was made in. InputError where the grid has no such block.
     [[nodiscard]] std::size_t index_of_block(const CellCount& block) const;

@@ -19,7 +19,9 @@ struct LasGenerator::Plan {
         : correlation(model) {
         grid.validate();
         model.validate();
-        require_memory(grid, 3.0 * static_cast<double>(grid.size()) * sizeof(double), "las");
+        // Three buffers, normals and field; with what FieldGenerator holds beside them more.
+        require_memory(grid, 5.0 * static_cast<double>(grid.size()) * sizeof(double),
+                       "field.method = \"las\"");
         grids.push_back(grid);
         while (static_cast<std::int64_t>(grids.back().size()) >
                std::max<std::int64_t>(1, stage0_cells)) {
@@ -76,6 +78,25 @@ LasGenerator::LasGenerator(const GridSpec& grid, const CorrelationModel& correla
                              plan.correlation);
         normals_ += stages_.back().size();
     }
+}
+
+double LasGenerator::stated_error() const {
+    if (exact()) return Generator::stated_error();
+    switch (correlation().kind) {
+        case Correlation::markov:
+            return 0.05;
+        case Correlation::separable_markov:
+            return 0.15;
+        case Correlation::gaussian:
+            return 0.105;
+        case Correlation::spherical:
+            return 0.11;
+        case Correlation::matern32:
+            return 0.065;
+        case Correlation::matern52:
+            return 0.075;
+    }
+    return Generator::stated_error();
 }
 
 CellCount LasGenerator::stage_cells(std::size_t stage) const {

@@ -25,7 +25,8 @@ class Check {
                             options_.kind == MarginalKind::beta;
         if (window) bounds();
         if (options_.kind == MarginalKind::bounded)
-            require(positive(options_.s), "s", options_.s, "must be positive and finite");
+            require(options_.s >= 1e-6 && options_.s <= 1e6, "s", options_.s,
+                    "must be in [1e-6, 1e6]");
         else
             mean_and_cov();
         if (options_.kind == MarginalKind::truncated_normal) cut();
@@ -39,8 +40,6 @@ class Check {
     }
 
   private:
-    static bool positive(double x) { return x > 0.0 && std::isfinite(x); }
-
     void require(bool ok, const char* name, double value, const std::string& allowed) const {
         if (!ok) throw InputError(fmt::format("{}.{} = {}: {}", key_, name, value, allowed));
     }
@@ -54,15 +53,23 @@ class Check {
         const double low = *options_.minimum, high = *options_.maximum;
         require(limits_.contains(low), "minimum", low,
                 fmt::format("must be {} ({})", limits_.text, limits_.unit));
-        require(high > low && limits_.contains(high), "maximum", high,
-                fmt::format("must be above {}.minimum = {} and {} ({})", key_, low, limits_.text,
-                            limits_.unit));
+        if (low != 0.0) size("minimum", low);
+        size("maximum", high);
+        require(high - low >= 1e-6 * high && limits_.contains(high), "maximum", high,
+                fmt::format("must be above {}.minimum = {} by 1e-6 of it, and {} ({})", key_, low,
+                            limits_.text, limits_.unit));
+    }
+
+    /// So that neither a square nor a quotient leaves what a double can hold.
+    void size(const char* name, double value) const {
+        require(value >= 1e-100 && value <= 1e100, name, value,
+                fmt::format("must be in [1e-100, 1e100] ({})", limits_.unit));
     }
 
     void mean_and_cov() const {
-        require(positive(options_.mean), "mean", options_.mean,
-                fmt::format("must be positive and finite ({})", limits_.unit));
-        require(positive(options_.cov), "cov", options_.cov, "must be positive and finite");
+        size("mean", options_.mean);
+        require(options_.cov >= 1e-6 && options_.cov <= 1e3, "cov", options_.cov,
+                "must be in [1e-6, 1000]");
     }
 
     void cut() const {
@@ -76,8 +83,8 @@ class Check {
     void shapes() const {
         const double low = *options_.minimum, high = *options_.maximum;
         require(options_.mean > low && options_.mean < high, "mean", options_.mean,
-                fmt::format("must lie between {}.minimum = {} and {}.maximum = {}", key_, low, key_,
-                            high));
+                fmt::format("must lie strictly between {}.minimum = {} and {}.maximum = {}", key_,
+                            low, key_, high));
         const double largest =
             std::sqrt((options_.mean - low) * (high - options_.mean)) / options_.mean;
         require(options_.cov < 0.99 * largest, "cov", options_.cov,

@@ -45,6 +45,9 @@ double beta_quantile(double a, double b, double p) {
                             overflow_error<ignore_error>, underflow_error<ignore_error>>;
     // Boost loses the digits of small p at a = 1, where p = 1 - (1 - x)^b.
     if (std::abs(a - 1.0) < 1e-12) return -std::expm1(std::log1p(-p) / b);
+    // Near 0 the distribution is x^a / (a B(a, b)) (1 - ...x); Boost finds no root there.
+    const double x = std::pow(p * a * boost::math::beta(a, b), 1.0 / a);
+    if (x * (1.0 + a + b) < 1e-16) return x;
     return boost::math::ibeta_inv(a, b, p, InDouble());
 }
 

@@ -94,6 +94,15 @@ double Marginal::score(double value) const {
     return std::visit([&](const auto& family) { return family.score(value / factor_); }, family_);
 }
 
+double Marginal::first_not_below(double value) const {
+    double below = -40.0, above = 40.0;
+    for (int step = 0; step < 100; ++step) {
+        const double middle = 0.5 * (below + above);
+        ((*this)(middle) < value ? below : above) = middle;
+    }
+    return above;
+}
+
 double Marginal::slope(double g) const {
     constexpr double step = 1e-4;
     return ((*this)(g + step) - (*this)(g - step)) / (2.0 * step);
@@ -112,6 +121,11 @@ Moments Marginal::moments() const {
 
 Moments Marginal::point_moments() const {
     return std::visit([](const auto& family) { return moments_of(family, 1.0); }, family_);
+}
+
+double Marginal::mean_given(double mean, double variance) const {
+    const double spread = std::sqrt(variance), middle = (*this)(mean);
+    return middle + expectation([&](double x) { return (*this)(mean + spread * x) - middle; });
 }
 
 double Marginal::cell_cdf(double value) const {

@@ -36,6 +36,8 @@ class Marginal {
     void apply(std::span<const double> g, std::span<double> values) const;
     /// The g that gives a value inside range(); NaN or infinite outside [-].
     [[nodiscard]] double score(double value) const;
+    /// The g from which on values are not below this one; 40 where there is none [-].
+    [[nodiscard]] double first_not_below(double value) const;
     /// d value / d g, by central differences, good to 1e-7 [rad or Pa].
     [[nodiscard]] double slope(double g) const;
     /// All values lie in this interval [rad or Pa].
@@ -49,6 +51,8 @@ class Marginal {
     [[nodiscard]] Moments point_moments() const;
     /// Share of the cells below a value [-].
     [[nodiscard]] double cell_cdf(double value) const;
+    /// Mean where G is normal with these moments [rad or Pa].
+    [[nodiscard]] double mean_given(double mean, double variance) const;
 
   private:
     std::variant<Bounded, Lognormal, Normal, TruncatedNormal, Beta, Weibull> family_;
@@ -79,17 +83,22 @@ class RowMarginals {
                  double gamma);
 
     [[nodiscard]] Property property() const { return property_; }
+    [[nodiscard]] const GridSpec& grid() const { return grid_; }
+    /// Rows of cells with marginals of their own: 1 without a trend.
+    [[nodiscard]] std::size_t distinct_rows() const { return rows_.size(); }
     /// The marginal of the cells (i, j, k), whatever i and k.
     [[nodiscard]] const Marginal& row(std::int32_t j) const {
         return rows_[rows_.size() == 1 ? 0 : static_cast<std::size_t>(j)];
     }
     /// The property of every cell, from G of every cell, both at GridSpec::index() [rad or Pa].
-    /// SimulationError where a value is none that the property can have, see validate().
+    /// InputError where a value is none that the property can have, see validate().
     [[nodiscard]] std::vector<double> values(std::span<const double> g) const;
 
     /// Of a cell taken at random from all rows [rad or Pa].
     [[nodiscard]] Moments moments() const;
     [[nodiscard]] double cell_cdf(double value) const;  ///< share below a value [-]
+    /// Share of the cells with a lower value, also where many have the same (a bound, to rounding).
+    [[nodiscard]] double share_below(double value) const;
     /// The value that a share p of the cells lies below, 1e-15 < p < 1 - 1e-15 [rad or Pa].
     [[nodiscard]] double cell_quantile(double p) const;
     /// Mean over the rows of a point's mean [rad or Pa].

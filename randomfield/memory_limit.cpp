@@ -1,20 +1,47 @@
 #include "randomfield/memory_limit.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
 
 #include "core/errors.hpp"
 
 namespace grainfield::randomfield {
 
-void require_memory(const GridSpec& grid, double bytes, const char* method) {
-    const double memory =
+double memory_of_process() {
+    double memory =
         static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    rlimit limit{};
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+        memory = std::min(memory, static_cast<double>(limit.rlim_cur));
+    double group = 0.0;  // "max" where there is no limit
+    if (std::ifstream("/sys/fs/cgroup/memory.max") >> group && group > 0.0)
+        memory = std::min(memory, group);
+    return memory;
+}
+
+void require_memory(const GridSpec& grid, double bytes, const char* work) {
+    const double memory = memory_of_process();
     if (bytes <= memory) return;
     throw InputError(fmt::format(
-        "random field: {} x {} x {} cells with field.method = \"{}\" need {:.3g} GB of memory: at "
-        "most {:.3g} GB are allowed, all that this machine has",
-        grid.cells[0], grid.cells[1], grid.cells[2], method, 1e-9 * bytes, 1e-9 * memory));
+        "random field: {} x {} x {} cells with {} need {:.3g} GB of memory: at most {:.3g} GB are "
+        "allowed, all that there is; lower packing.blocks to at most {:.0f} cells",
+        grid.cells[0], grid.cells[1], grid.cells[2], work, 1e-9 * bytes, 1e-9 * memory,
+        static_cast<double>(grid.size()) * memory / bytes));
+}
+
+void require_memory(const GridSpec& grid, double bytes, std::uint64_t count, const char* work) {
+    const double memory = memory_of_process();
+    if (bytes <= memory) return;
+    throw InputError(fmt::format(
+        "random field: {} realizations of {} x {} x {} cells {} need {:.3g} GB of memory: at most "
+        "{:.3g} GB are allowed, all that there is; lower --realizations to at most {:.0f}, or "
+        "packing.blocks, or write a .csv file, which holds one at a time",
+        count, grid.cells[0], grid.cells[1], grid.cells[2], work, 1e-9 * bytes, 1e-9 * memory,
+        static_cast<double>(count) * memory / bytes));
 }
 
 }  // namespace grainfield::randomfield

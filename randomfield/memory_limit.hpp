@@ -1,12 +1,21 @@
 #pragma once
-// Grids too large for this machine are refused before anything is allocated.
+// Fields too large for this machine are refused before anything is allocated.
+
+#include <cstdint>
 
 #include "randomfield/grid.hpp"
 
 namespace grainfield::randomfield {
 
-/// InputError that names the grid, what the method ("las", "cholesky", ...) needs and what is
-/// there, if `bytes` [B] are more than the memory of this machine.
-void require_memory(const GridSpec& grid, double bytes, const char* method);
+/// What this process may use: the machine's memory, or less where a limit is set (ulimit -v, the
+/// control group of a container) [B].
+double memory_of_process();
+
+/// InputError that names the grid, what `work` ("field.method = \"las\"", ...) needs, what is
+/// there and what to lower, if `bytes` [B] are more than memory_of_process().
+void require_memory(const GridSpec& grid, double bytes, const char* work);
+
+/// The same for the fields of `count` realizations held at once.
+void require_memory(const GridSpec& grid, double bytes, std::uint64_t count, const char* work);
 
 }  // namespace grainfield::randomfield

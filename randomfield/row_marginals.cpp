@@ -86,10 +86,10 @@ std::vector<double> RowMarginals::values(std::span<const double> g) const {
     const PropertyLimits limits = limits_of(property_);
     for (std::size_t c = 0; c < values.size(); ++c)
         if (!limits.contains(values[c]))
-            throw SimulationError(fmt::format(
-                "{}: this realization has a {} of {} {} in cell {}, allowed is {}: choose a "
-                "smaller cov, or the marginal \"truncated-normal\" or \"beta\"",
-                limits.key, limits.name, values[c], limits.unit, c, limits.text));
+            throw InputError(fmt::format(
+                "{}.cov, {}.marginal: a realization has a {} of {} {} in cell {}, allowed is {}: "
+                "choose a smaller cov, or the marginal \"truncated-normal\" or \"beta\"",
+                limits.key, limits.key, limits.name, values[c], limits.unit, c, limits.text));
     return values;
 }
 
@@ -110,6 +110,13 @@ Moments RowMarginals::moments() const {
 double RowMarginals::cell_cdf(double value) const {
     double share = 0.0;
     for (const Marginal& one : rows_) share += one.cell_cdf(value);
+    return share / static_cast<double>(rows_.size());
+}
+
+double RowMarginals::share_below(double value) const {
+    double share = 0.0;
+    for (const Marginal& one : rows_)
+        share += normal_cdf(one.first_not_below(value) / std::sqrt(gamma_));
     return share / static_cast<double>(rows_.size());
 }
 

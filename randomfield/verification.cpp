@@ -1,11 +1,11 @@
 #include "randomfield/verification.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -13,68 +13,23 @@
 
 #include "core/errors.hpp"
 #include "randomfield/covariance.hpp"
+#include "randomfield/field_laws.hpp"
+#include "randomfield/memory_limit.hpp"
+#include "randomfield/verification_sums.hpp"
 
 namespace grainfield::randomfield {
 namespace {
 
 constexpr std::size_t bins = 20;
+constexpr double least_share = 0.5 / bins;  // of a bin
 constexpr std::int32_t most_lags = 32;
+constexpr double reach = 38.0;  // deviations beyond which nothing is
 
-/// Sums over realizations of numbers counted from their exact values, and of their squares.
-class Tally {
-  public:
-    Tally() = default;
-    explicit Tally(std::vector<double> exact)
-        : exact_(std::move(exact)), sum_(exact_.size(), 0.0), square_(exact_.size(), 0.0) {}
-
-    void add(std::span<const double> values) {
-        for (std::size_t i = 0; i < exact_.size(); ++i) {
-            const double off = values[i] - exact_[i];
-            sum_[i] += off;
-            square_[i] += off * off;
-        }
-    }
-    void merge(const Tally& other) {
-        for (std::size_t i = 0; i < exact_.size(); ++i) {
-            sum_[i] += other.sum_[i];
-            square_[i] += other.square_[i];
-        }
-    }
-    /// Bands at false_alarm for `together` numbers, in units of 1/scale.
-    [[nodiscard]] std::vector<Estimate> estimates(std::uint64_t n, std::size_t together,
-                                                  double scale) const {
-        const auto count = static_cast<double>(n);
-        const boost::math::students_t student(count - 1.0);
-        const double t =
-            quantile(complement(student, 0.5 * false_alarm / static_cast<double>(together)));
-        std::vector<Estimate> all;
-        for (std::size_t i = 0; i < exact_.size(); ++i) {
-            const double off = sum_[i] / count;
-            const double variance = std::max(0.0, square_[i] / count - off * off);
-            all.push_back({scale * (exact_[i] + off), scale * exact_[i],
-                           scale * t * std::sqrt(variance / (count - 1.0))});
-        }
-        return all;
-    }
-    [[nodiscard]] double square(std::size_t i) const { return square_[i]; }
-    [[nodiscard]] double sum(std::size_t i) const { return sum_[i]; }
-    [[nodiscard]] std::size_t size() const { return exact_.size(); }
-
-  private:
-    std::vector<double> exact_, sum_, square_;
-};
-
-/// Mean over all pairs of cells `lag` apart along an axis of the product of their G.
-double mean_product(std::span<const double> g, const GridSpec& grid, std::size_t axis,
-                    std::int32_t lag) {
-    std::size_t stride = 1;  // from a cell to the next along the axis
-    for (std::size_t d = 0; d < axis; ++d) stride *= static_cast<std::size_t>(grid.cells[d]);
-    const std::size_t line = stride * static_cast<std::size_t>(grid.cells[axis]);
-    const std::size_t ahead = stride * static_cast<std::size_t>(lag);
-    double sum = 0.0;
-    for (std::size_t first = 0; first < g.size(); first += line)
-        for (std::size_t i = first; i + ahead < first + line; ++i) sum += g[i] * g[i + ahead];
-    return sum / static_cast<double>(g.size() / line * (line - ahead));
+/// The mean of n realizations in its band, one of `together` numbers; all over `unit`.
+Estimate estimate(double mean, const Law& law, std::uint64_t n, std::size_t together,
+                  double unit = 1.0) {
+    const Band band = band_of_mean(law, n, false_alarm / static_cast<double>(together));
+    return {mean / unit, law.mean / unit, band.low / unit, band.high / unit};
 }
 
 VarianceMap variance_map(std::vector<double> ratio, std::uint64_t n) {
@@ -96,28 +51,6 @@ VarianceMap variance_map(std::vector<double> ratio, std::uint64_t n) {
     return map;
 }
 
-/// The sums of one field.
-struct Sums {
-    Tally products;       ///< of all axes and lags
-    Tally cells;          ///< G of every cell
-    Tally shares, mean;   ///< of the property
-    double square = 0.0;  ///< mean over cells of squared distances from the row's mean
-    Tally known;          ///< conditional G of every cell
-    double largest_miss = 0.0;
-    Tally cross;
-
-    void merge(const Sums& other) {
-        products.merge(other.products);
-        cells.merge(other.cells);
-        shares.merge(other.shares);
-        mean.merge(other.mean);
-        square += other.square;
-        known.merge(other.known);
-        largest_miss = std::max(largest_miss, other.largest_miss);
-        cross.merge(other.cross);
-    }
-};
-
 /// What is expected of one field, and how it is added up.
 class Checker {
   public:
@@ -126,8 +59,15 @@ class Checker {
         for (std::size_t d = 0; d < 3; ++d) lags_[d] = std::min(grid_.cells[d], most_lags);
         if (property) marginals_ = &generator.marginals(*property);
         if (marginals_ != nullptr) {
-            for (std::size_t b = 1; b < bins; ++b)
-                edges_.push_back(marginals_->cell_quantile(static_cast<double>(b) / bins));
+            double below = 0.0;
+            for (std::size_t b = 1; b < bins; ++b) {
+                const double edge = marginals_->cell_quantile(static_cast<double>(b) / bins);
+                // Where many cells have one value, edges fall together.
+                const double share = marginals_->share_below(edge);
+                if (share - below < least_share || 1.0 - share < least_share) continue;
+                edges_.push_back(edge);
+                below = share;
+            }
             moments_ = marginals_->moments();
             for (std::int32_t j = 0; j < grid_.cells[1]; ++j)
                 row_means_.push_back(marginals_->row(j).moments().mean);
@@ -158,7 +98,7 @@ class Checker {
                   0.0,
                   {}};
         if (marginals_ != nullptr) {
-            sums.shares = Tally(std::vector<double>(bins, 1.0 / bins));
+            sums.shares = Tally(std::vector<double>(edges_.size() + 1, 0.0));
             sums.mean = Tally({moments_.mean});
         }
         if (property_ == Property::normal_stiffness &&
@@ -175,9 +115,7 @@ class Checker {
                 products.push_back(mean_product(g, grid_, d, h));
         sums.products.add(products);
         sums.cells.add(g);
-        if (marginals_ != nullptr)
-            add_values(sums, *property_ == Property::friction_angle ? field.friction_angle
-                                                                    : field.normal_stiffness);
+        if (marginals_ != nullptr) add_values(sums, values_of(field));
         if (sums.cross.size() == 0) return;
         double cross = 0.0;
         for (std::size_t c = 0; c < g.size(); ++c) cross += field.G[c] * field.G_stiffness[c];
@@ -186,28 +124,36 @@ class Checker {
 
     void add_known(Sums& sums, const BlockField& field) const {
         if (known_mean_.empty()) return;
-        const std::vector<double>& g = gaussian(field);
-        sums.known.add(g);
-        for (std::size_t c = 0; c < g.size(); ++c)
-            if (is_known(c))
-                sums.largest_miss = std::max(sums.largest_miss, std::abs(g[c] - known_mean_[c]));
+        sums.known.add(gaussian(field));
+        // Against the file, not against what became of it on the way.
+        const std::vector<double>& values = values_of(field);
+        for (const CellDatum& datum : generator_.conditioning()->data())
+            if (datum.property == *property_ && datum.variance == 0.0)
+                sums.largest_miss =
+                    std::max(sums.largest_miss, std::abs(values[datum.cell] / datum.value - 1.0));
     }
 
-    [[nodiscard]] FieldCheck result(const Sums& sums, std::uint64_t n) const {
+    [[nodiscard]] FieldCheck result(const Sums& sums, std::uint64_t n,
+                                    std::optional<Estimate>& cross) const {
         FieldCheck check;
         check.property = property_;
         const double gamma = generator_.gamma();
-        const auto all = sums.products.estimates(n, sums.products.size(), 1.0 / gamma);
-        auto next = all.begin();
-        for (std::size_t d = 0; d < 3; ++d) {
-            check.correlation[d].assign(next, next + lags_[d]);
-            next += lags_[d];
-        }
+        const FieldLaws laws(grid_, generator_.generator().correlation());
+        std::size_t next = 0;
+        for (std::size_t d = 0; d < 3; ++d)
+            for (std::int32_t h = 0; h < lags_[d]; ++h, ++next)
+                check.correlation[d].push_back(estimate(sums.products.mean(next, n),
+                                                        laws.of_products(d, h), n,
+                                                        sums.products.size(), gamma));
+        if (sums.cross.size() > 0)
+            cross = estimate(sums.cross.mean(0, n),
+                             laws.of_cross_products(generator_.options().cross_correlation), n, 1,
+                             gamma);
         std::vector<double> ratio;
         for (std::size_t c = 0; c < grid_.size(); ++c)
             ratio.push_back(sums.cells.square(c) / static_cast<double>(n) / gamma);
         check.variance = variance_map(std::move(ratio), n);
-        if (marginals_ != nullptr) check.histogram = histogram(sums, n);
+        if (marginals_ != nullptr) check.histogram = histogram(laws, sums, n);
         if (!known_mean_.empty()) check.data = data(sums, n);
         return check;
     }
@@ -223,8 +169,13 @@ class Checker {
         return second ? field.G_stiffness : field.G;
     }
 
+    [[nodiscard]] const std::vector<double>& values_of(const BlockField& field) const {
+        return *property_ == Property::friction_angle ? field.friction_angle
+                                                      : field.normal_stiffness;
+    }
+
     void add_values(Sums& sums, std::span<const double> values) const {
-        std::vector<double> shares(bins, 0.0);
+        std::vector<double> shares(edges_.size() + 1, 0.0);
         const double each = 1.0 / static_cast<double>(values.size());
         double mean = 0.0, square = 0.0;
         const auto nx = static_cast<std::size_t>(grid_.cells[0]);
@@ -241,20 +192,51 @@ class Checker {
         sums.square += square;
     }
 
-    [[nodiscard]] HistogramCheck histogram(const Sums& sums, std::uint64_t n) const {
+    [[nodiscard]] HistogramCheck histogram(const FieldLaws& laws, const Sums& sums,
+                                           std::uint64_t n) const {
         HistogramCheck check;
         check.edges = edges_;
         check.first = marginals_->cell_quantile(1e-3);
         check.last = marginals_->cell_quantile(1.0 - 1e-3);
-        check.shares = sums.shares.estimates(n, bins, 1.0);
-        check.mean = sums.mean.estimates(n, 1, 1.0).front();
-        check.deviation = moments_.deviation;
-        double between = 0.0;  // of the rows' means, in the predicted deviation
-        for (const double mean : row_means_)
-            between += (mean - moments_.mean) * (mean - moments_.mean);
-        check.sampled_deviation = std::sqrt(sums.square / static_cast<double>(n) +
-                                            between / static_cast<double>(row_means_.size()));
+        const std::size_t rows = marginals_->distinct_rows();
+        const double spread = std::sqrt(generator_.gamma());
+        // In units of G's deviation.
+        std::vector<double> from(rows, -reach), to(rows);
+        for (std::size_t b = 0; b <= edges_.size(); ++b) {
+            for (std::size_t j = 0; j < rows; ++j)
+                to[j] =
+                    b == edges_.size()
+                        ? reach
+                        : marginals_->row(static_cast<std::int32_t>(j)).first_not_below(edges_[b]) /
+                              spread;
+            check.shares.push_back(
+                estimate(sums.shares.mean(b, n), laws.of_share(from, to), n, edges_.size() + 1));
+            from = to;
+        }
+        const auto value = [&](std::size_t j, double x) {
+            return marginals_->row(static_cast<std::int32_t>(j))(spread * x);
+        };
+        check.mean = estimate(sums.mean.mean(0, n), laws.of_cells(rows, value), n, 2);
+        const Law squares = laws.of_cells(rows, [&](std::size_t j, double x) {
+            const double off = value(j, x) - row_means_[j];
+            return off * off;
+        });
+        check.deviation = deviation(estimate(sums.square / static_cast<double>(n), squares, n, 2));
+        // Of a few realizations with heavy tails the band says nothing; where nearly all values are
+        // at two bounds, what scatters is finer than the quadrature behind it.
+        check.deviation_judged = squares.skewness / std::sqrt(static_cast<double>(n)) < 1.0 &&
+                                 squares.variance > 1e-6 * squares.mean * squares.mean;
         return check;
+    }
+
+    /// From the square within rows to the deviation of all cells.
+    [[nodiscard]] Estimate deviation(const Estimate& square) const {
+        double between = 0.0;  // of the rows' means
+        for (const double mean : row_means_)
+            between += (mean - moments_.mean) * (mean - moments_.mean) /
+                       static_cast<double>(row_means_.size());
+        const auto root = [&](double x) { return std::sqrt(std::max(0.0, x) + between); };
+        return {root(square.estimate), root(square.exact), root(square.low), root(square.high)};
     }
 
     [[nodiscard]] DataCheck data(const Sums& sums, std::uint64_t n) const {
@@ -302,17 +284,38 @@ std::vector<Checker> checkers_of(const FieldGenerator& generator) {
 
 }  // namespace
 
-bool Estimate::inside() const {
-    return std::abs(estimate - exact) <= half_width;
+double Estimate::of_band() const {
+    const double off = estimate - exact, side = off > 0.0 ? high - exact : low - exact;
+    return side != 0.0 ? off / side : 0.0;
 }
 
 Verification verify(const FieldGenerator& generator, std::uint64_t realizations) {
+    core::Monitor nobody;
+    return verify(generator, realizations, nobody);
+}
+
+Verification verify(const FieldGenerator& generator, std::uint64_t realizations,
+                    core::Monitor& monitor) {
+    return verify(generator,
+                  {[&](std::uint64_t k) { return generator.draw_unconditional(k); },
+                   [&](std::uint64_t k) { return generator.draw(k); }},
+                  realizations, monitor);
+}
+
+Verification verify(const FieldGenerator& generator, const FieldSource& source,
+                    std::uint64_t realizations, core::Monitor& monitor) {
     if (realizations < least_realizations)
         throw InputError(fmt::format("--realizations = {}: a verification needs at least {}",
                                      realizations, least_realizations));
     const std::vector<Checker> checkers = checkers_of(generator);
     // Sums of parts in a fixed order: the same result on any number of threads.
     constexpr std::uint64_t parts = 16;
+    // Three columns a tally of cells and part, two tallies a field, and a realization a thread.
+    require_memory(
+        generator.grid(),
+        (6.0 * parts * static_cast<double>(checkers.size()) + 8.0 * omp_get_max_threads()) *
+            static_cast<double>(generator.grid().size()) * sizeof(double),
+        "--verify");
     std::vector<std::vector<Sums>> sums(parts);
     std::exception_ptr failure;
 #pragma omp parallel for schedule(dynamic)
@@ -320,11 +323,16 @@ Verification verify(const FieldGenerator& generator, std::uint64_t realizations)
         try {
             for (const Checker& checker : checkers) sums[part].push_back(checker.empty());
             for (std::uint64_t k = part; k < realizations; k += parts) {
-                const BlockField plain = generator.draw_unconditional(k);
+                if (monitor.stop_requested())
+                    throw Interrupted("interrupted: the verification was not finished");
+                if (omp_get_thread_num() == 0)
+                    monitor.progress(static_cast<double>(k) / static_cast<double>(realizations), -1,
+                                     "");
+                const BlockField plain = source.plain(k);
                 for (std::size_t f = 0; f < checkers.size(); ++f)
                     checkers[f].add(sums[part][f], plain);
                 if (generator.conditioning() == nullptr) continue;
-                const BlockField known = generator.draw(k);
+                const BlockField known = source.known(k);
                 for (std::size_t f = 0; f < checkers.size(); ++f)
                     checkers[f].add_known(sums[part][f], known);
             }
@@ -340,10 +348,7 @@ Verification verify(const FieldGenerator& generator, std::uint64_t realizations)
     for (std::size_t f = 0; f < checkers.size(); ++f) {
         Sums total = checkers[f].empty();
         for (const auto& part : sums) total.merge(part[f]);
-        result.fields.push_back(checkers[f].result(total, realizations));
-        if (total.cross.size() > 0)
-            result.cross_correlation =
-                total.cross.estimates(realizations, 1, 1.0 / generator.gamma()).front();
+        result.fields.push_back(checkers[f].result(total, realizations, result.cross_correlation));
     }
     if (generator.grid().size() <= max_error_cells)
         result.covariance_error = covariance_error(generator.generator());

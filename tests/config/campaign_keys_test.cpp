@@ -53,7 +53,7 @@ TEST_F(Campaign, MistakesNameLineAndKey) {
          "montecarlo.sweep.\"field.stiffness.cov\" = 0.4: an array of one or more values"},
         {"[montecarlo.sweep]\n'field.stiffness.cov' = []", 3, "an array of one or more values"},
         {"[montecarlo.sweep]\n'field.stiffness.cov' = [\n0.4,\n-1]", 5,
-         "montecarlo.sweep.\"field.stiffness.cov\" = -1: a number > 0 is expected"},
+         "montecarlo.sweep.\"field.stiffness.cov\" = -1: a number in [1e-6, 1000] is expected"},
         {"[montecarlo.sweep]\n'montecarlo.realizations' = [1, 2]", 3,
          "\"montecarlo.realizations\" is not a known key in montecarlo.sweep"},
         {"case = 'A'", 2, "montecarlo.case = \"A\": an array of tables"},

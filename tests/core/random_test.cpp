@@ -3,6 +3,7 @@
 #include "core/random.hpp"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -10,6 +11,8 @@
 #include <cstdint>
 #include <set>
 #include <vector>
+
+#include "core/normal_quantile.hpp"
 
 namespace grainfield::core {
 namespace {
@@ -74,6 +77,41 @@ TEST(Random, ManyNormalsAreTheSameAsSingleOnes) {
     }
     EXPECT_EQ(different, 0u);
     EXPECT_GT(tails, 100u);
+}
+
+// The same on every instruction set that this machine has, the plain one included.
+TEST(Random, NormalsAreTheSameOnEveryInstructionSet) {
+    const RandomStream stream(20240607, Stream::field_friction);
+    const std::vector<double> usual = [&] {
+        std::vector<double> values(30001);
+        stream.normals(5, 3, values);
+        return values;
+    }();
+    const std::int64_t all = hwy::SupportedTargets();
+    int sets = 0;
+    for (const std::int64_t target :
+         {std::int64_t{HWY_AVX3}, std::int64_t{HWY_AVX2}, std::int64_t{HWY_STATIC_TARGET}}) {
+        if ((all & target) == 0) continue;
+        hwy::SetSupportedTargetsForTest(target);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        std::vector<double> values(usual.size());
+        stream.normals(5, 3, values);
+        EXPECT_EQ(values, usual) << hwy::TargetName(target);
+        ++sets;
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    EXPECT_GE(sets, 1);
+}
+
+// The tails' own logarithm against the library's, over all that a uniform number can be there.
+TEST(Random, TailLogarithmIsGoodToTwoUnitsOfRoundOff) {
+    for (int e = 4; e <= 1022; e = e < 60 ? e + 1 : e + 31) {
+        for (int i = 0; i < 50; ++i) {
+            const double x = std::ldexp(1.0 + i / 50.0, -e);
+            EXPECT_NEAR(as241::tail_log(x), std::log(x), 4.5e-16 * std::abs(std::log(x))) << x;
+        }
+    }
 }
 
 TEST(Random, UniformsAreInsideTheOpenInterval) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include <string>
 
 #include "tests/program/program.hpp"
@@ -85,7 +87,7 @@ TEST(FieldVerify, PrintsVerdictsAndWritesThePage) {
     EXPECT_THAT(page, Not(HasSubstr("<script")));
     EXPECT_THAT(page, Not(HasSubstr("OUTSIDE")));
     EXPECT_THAT(place.read("v/correlation.csv"),
-                StartsWith("field,axis,lag_cells,lag_m,estimate,exact,half_width_99\n"
+                StartsWith("field,axis,lag_cells,lag_m,estimate,exact,low_99,high_99\n"
                            "friction_angle,x,0,0,"));
     EXPECT_THAT(place.read("v/histogram.csv"), HasSubstr("\nnormal_stiffness,-inf,"));
     EXPECT_THAT(place.read("v/variance.csv"), HasSubstr("\nfriction_angle,1,0,0,"));
@@ -112,8 +114,73 @@ TEST(FieldVerify, NeedsRealizationsEnough) {
     const Outcome run =
         place.run({"field", "--verify", "--realizations", "99", "--out", place.path("v")});
     EXPECT_EQ(run.code, 2);
-    EXPECT_THAT(run.err, HasSubstr("--realizations = 99: --verify needs at least 100"));
+    EXPECT_THAT(run.err, HasSubstr("--realizations = 99: a whole number in [100, 1000000000] is "
+                                   "expected with --verify"));
     EXPECT_FALSE(place.has("v"));
+}
+
+TEST(Field, RefusesNumbersOfRealizationsThatAreNone) {
+    const Workplace place;
+    for (const char* count : {"0", "-3", "1e3", "two", "", "1000000001", "99999999999999999999"}) {
+        const Outcome run =
+            place.run({"field", "--realizations", count, "--out", place.path("f.csv")});
+        EXPECT_EQ(run.code, 2) << count;
+        EXPECT_THAT(run.err, HasSubstr(std::string("--realizations = ") + count +
+                                       ": a whole number in [1, 1000000000] is expected"));
+    }
+    EXPECT_FALSE(place.has("f.csv"));
+}
+
+TEST(Field, RefusesAFileOfMoreFieldsThanTheMemoryHolds) {
+    const Workplace place;
+    const Outcome run = place.run(
+        {"field", "--realizations", "1000000000", "--out", place.path("f.h5"), "--quiet"});
+    EXPECT_EQ(run.code, 2);
+    EXPECT_THAT(run.err, HasSubstr("1000000000 realizations of 6 x 12 x 6 cells in one .h5 file"));
+    EXPECT_THAT(run.err, HasSubstr("lower --realizations to at most "));
+}
+
+// What was there stays, and nothing else is left beside it.
+TEST(Field, LeavesNothingBehindWhenInterrupted) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const Workplace place;
+        place.write("f.csv", "old");
+        const std::filesystem::path folder =
+            std::filesystem::path(place.path("f.csv")).parent_path();
+        const auto files = [&] {
+            std::size_t count = 0;
+            for (const auto& entry : std::filesystem::directory_iterator(folder))
+                count += entry.path().extension() == ".tmp" || entry.path().extension() == ".csv";
+            return count;
+        };
+        const Outcome run = place.run(
+            {"field", "--realizations", "100000000", "--out", place.path("f.csv"), "--quiet"},
+            SignalAfter{signal, [&] { return files() == 2; }});
+        EXPECT_EQ(run.code, 130);
+        EXPECT_THAT(run.err, HasSubstr("interrupted: no fields were written"));
+        EXPECT_EQ(files(), 1u);
+        EXPECT_EQ(place.read("f.csv"), "old");
+    }
+}
+
+// Two exact values that no field of this correlation length holds, and marginals that data lift
+// out of what the property can be: the file and line, or the file and the key.
+TEST(Field, RefusesDataThatCannotBeHonoured) {
+    const Workplace place;
+    place.write("at-odds.csv", "x,y,z,value,error\n0.1,0.1,0.1,0.35,0\n0.1,0.3,0.1,0.85,0\n");
+    place.write("high.csv", "x,y,z,value,error\n0.1,0.1,0.1,1.5,0\n");
+    const auto refusal = [&](const std::string& keys) {
+        const Outcome run =
+            place.run({"field", place.write("c.toml", "[field]\nvariable = \"friction\"\n" + keys),
+                       "--out", place.path("f.csv")});
+        EXPECT_EQ(run.code, 2) << keys;
+        return run.err;
+    };
+    EXPECT_THAT(refusal("correlation_length = [1e13, 1e13, 1e13]\ndata = \"at-odds.csv\"\n"),
+                HasSubstr("at-odds.csv:"));
+    EXPECT_THAT(refusal("data = \"high.csv\"\n[field.friction]\nmarginal = \"normal\"\n"),
+                testing::AllOf(HasSubstr("high.csv: with these values field.friction.marginal"),
+                               HasSubstr("allowed is in [0, pi/2)")));
 }
 
 }  // namespace

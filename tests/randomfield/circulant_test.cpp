@@ -60,7 +60,22 @@ TEST(Circulant, NegativeEigenvaluesAreRefusedWithTheirSize) {
     EXPECT_THAT(input_error([] {
                     CirculantGenerator(grid_of({600, 600, 600}), {Vec3(1, 1, 1)});
                 }),
-                HasSubstr("at most 3.36e+07 cells"));
+                HasSubstr("at most 2^25 = 33554432 are allowed; lower packing.blocks"));
+}
+
+// The limit is named, and correlation lengths as long as the message says are indeed possible.
+TEST(Circulant, RefusalsNameCorrelationLengthsThatWouldDo) {
+    const auto refusal = [](double theta) {
+        return input_error([&] {
+            CirculantGenerator(grid_of({40, 40, 40}), CorrelationModel(Vec3(theta, theta, theta)));
+        });
+    };
+    const std::string message = refusal(50.0);  // of cells of 0.25 m
+    EXPECT_THAT(message, HasSubstr("more than the 2^25 = 33554432 cells that are allowed"));
+    EXPECT_THAT(
+        message,
+        HasSubstr("periods of 12 correlation lengths fit up to about [6.67, 6.67, 6.67] m"));
+    EXPECT_EQ(refusal(6.66), "");
 }
 
 // Expected equality of doubles: the same bits on any number of threads.

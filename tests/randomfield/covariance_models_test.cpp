@@ -198,16 +198,21 @@ double polar_integral(const Vec3& theta, const Lag& lag) {
 }
 
 TEST(CovarianceModels, SphericalAgreesWithPolarIntegration) {
-    const Vec3 cell(0.25, 0.25, 0.25);
+    const Vec3 cell(0.25, 0.5, 0.125);
     struct Row {
-        Vec3 theta;
+        Vec3 theta;  // in cells
         Lag lag;
     };
-    for (const Row& row : {Row{Vec3(2.0, 2.0, 2.0), {0, 0, 0}}, Row{Vec3(2.0, 2.0, 2.0), {1, 2, 1}},
-                           Row{Vec3(2.0, 1.0, 0.7), {0, 1, 0}}, Row{Vec3(0.4, 0.4, 0.4), {0, 0, 0}},
-                           Row{Vec3(3.0, 0.5, 3.0), {2, 1, 0}}}) {
+    for (const Row& row :
+         {Row{Vec3(2.0, 2.0, 2.0), {0, 0, 0}}, Row{Vec3(2.0, 2.0, 2.0), {1, 2, 1}},
+          Row{Vec3(2.0, 1.0, 0.7), {0, 1, 0}}, Row{Vec3(0.4, 0.4, 0.4), {0, 0, 0}},
+          Row{Vec3(3.0, 0.5, 3.0), {2, 1, 0}}, Row{Vec3(1e-3, 1e-3, 1e-3), {0, 0, 0}},
+          Row{Vec3(0.04, 0.04, 0.04), {0, 0, 0}}, Row{Vec3(40.0, 4.0, 40.0), {0, 0, 0}},
+          Row{Vec3(40.0, 4.0, 40.0), {3, 2, 1}}, Row{Vec3(1e4, 1e4, 1e4), {0, 0, 0}},
+          Row{Vec3(1e4, 1e4, 1e4), {3, 3, 3}}, Row{Vec3(1e3, 0.5, 1.0), {0, 0, 0}},
+          Row{Vec3(0.01, 1.0, 100.0), {0, 0, 0}}}) {
         const LocalAverageCovariance covariance(
-            cell, {Vec3(0.25 * row.theta), Correlation::spherical}, {4, 4, 4});
+            cell, {row.theta.cwiseProduct(cell), Correlation::spherical}, {4, 4, 4});
         const double reference = polar_integral(row.theta, row.lag);
         EXPECT_NEAR(covariance(row.lag[0], row.lag[1], row.lag[2]) / reference, 1.0, 1e-12)
             << row.theta.transpose() << " lag " << row.lag[0] << row.lag[1] << row.lag[2];

@@ -83,7 +83,7 @@ TEST_F(FieldData, RefusesWithFileAndLine) {
                   "value = 1.6: a friction_angle must be in [0, pi/2)"},
              Case{"1,1,1,normal_stiffness,0,0", "value = 0: a normal_stiffness must be above 0"},
              Case{"1,1,1,friction_angle,0.95,0",
-                  "value = 0.95: outside what field.friction.marginal"},
+                  "value = 0.95: exact, but outside what field.friction.marginal"},
              Case{"1,1,1,friction_angle,0.3,0", "between 0.3 and 0.9 rad"},
              Case{"1,1,1,cohesion,0.3,0", "property = \"cohesion\": friction_angle or"},
              Case{"1,1,1,friction_angle,0.3", "6 columns are expected, here are 5"},
@@ -115,10 +115,11 @@ TEST_F(FieldData, ValuesOfOneBlockCombineByTheirPrecision) {
     MarginalOptions normal{MarginalKind::normal, {}, {}, 2.0, 0.6, 0.1};
     const RowMarginals rows(normal, friction, grid, 0.8);
     const auto marginals = [&](Property) { return &rows; };
+    const LocalAverageCovariance covariance(grid.cell_size, {paper_theta(0.5)}, grid.cells);
     const Vec3 here(0.1, 0.1, 0.1);
     // Scores 1 and -0.5 with errors of 0.5 and 1 in the score.
     auto data = cell_data("f", {{friction, here, 0.66, 0.03, 1}, {friction, here, 0.57, 0.06, 2}},
-                          grid, marginals);
+                          grid, covariance, 0.0, marginals);
     ASSERT_EQ(data.size(), 1u);
     EXPECT_NEAR(data[0].variance, 1.0 / (4.0 + 1.0), 1e-9);  // the slope is good to 1e-9 here
     EXPECT_NEAR(data[0].score, (4.0 * 1.0 - 0.5) / 5.0, 1e-9);
@@ -127,7 +128,7 @@ TEST_F(FieldData, ValuesOfOneBlockCombineByTheirPrecision) {
                      {{friction, here, 0.66, 0.03, 1},
                       {friction, here, 0.63, 0.0, 2},
                       {friction, here, 0.63, 0.0, 3}},
-                     grid, marginals);
+                     grid, covariance, 0.0, marginals);
     ASSERT_EQ(data.size(), 1u);
     EXPECT_EQ(data[0].variance, 0.0);
     EXPECT_NEAR(data[0].score, 0.5, 1e-12);
@@ -234,6 +235,27 @@ TEST_F(FieldData, DrawsHaveTheConditionalMeanAndVariance) {
         EXPECT_LT(worst, 6.6);
         EXPECT_GT(worst, 1.5);
     }
+}
+
+// E[k]/mu with data is the mean of what is drawn with them: five standard errors, 6e-7.
+TEST_F(FieldData, TheMeanRatioIsThatOfTheFieldsWithData) {
+    FieldOptions stiff =
+        options("x,y,z,value,error\n0.8,1.6,0.8,4e9,0\n0.1,0.1,0.1,1e8,2e7\n", Variable::stiffness);
+    stiff.correlation_length = paper_theta(1.0);
+    const FieldGenerator generator(GridSpec{}, stiff);
+    const int draws = 2000;
+    double sum = 0.0, square = 0.0;
+    for (int k = 0; k < draws; ++k) {
+        const BlockField field = generator.draw(static_cast<std::uint64_t>(k));
+        double mean = 0.0;
+        for (const double value : field.normal_stiffness) mean += value / 432 / 9e8;
+        sum += mean;
+        square += mean * mean;
+    }
+    const double mean = sum / draws;
+    const double error = std::sqrt((square / draws - mean * mean) / draws);
+    EXPECT_NEAR(generator.stiffness_mean_ratio(), mean, 5.0 * error);
+    EXPECT_GT(std::abs(generator.marginals(stiffness).mean_ratio() - mean), 20.0 * error);
 }
 
 }  // namespace

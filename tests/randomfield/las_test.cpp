@@ -1,15 +1,16 @@
 // Local average subdivision, the default and the published one: conservation, errors, any grid.
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 #include <omp.h>
 
 #include <cmath>
 #include <limits>
 
+#include "core/random.hpp"
 #include "randomfield/field_error.hpp"
 #include "randomfield/las_classic_generator.hpp"
 #include "randomfield/las_generator.hpp"
-#include "randomfield/memory_limit.hpp"
 #include "tests/randomfield/field_support.hpp"
 
 namespace grainfield::randomfield {
@@ -89,14 +90,14 @@ TEST(Las, CovarianceErrorsOfThePapersFieldsAreSmall) {
     }
 }
 
-// Many stages: errors of the published algorithm grow to 0.6, these stay below 0.05.
+// Many stages: errors of the published algorithm grow to 0.6, these stay below 0.047.
 TEST(Las, ErrorsStaySmallOverManyStages) {
     for (const double theta_y : {0.01, 0.1, 0.5, 1.0, 10.0}) {
         const LasGenerator las(grid_of({8, 16, 8}), paper_theta(theta_y), 8);
         EXPECT_EQ(las.subdivisions(), 7u);
         const CovarianceError error = covariance_error(las);
-        EXPECT_LT(error.covariance, 0.05) << theta_y;
-        EXPECT_LT(error.variance, 0.045) << theta_y;
+        EXPECT_LT(error.covariance, 0.047) << theta_y;
+        EXPECT_LT(error.variance, 0.029) << theta_y;
         ASSERT_EQ(error.variances.size(), 1024u);
         double worst = 0.0;
         for (const double v : error.variances) worst = std::max(worst, std::abs(v - 1.0));
@@ -104,18 +105,40 @@ TEST(Las, ErrorsStaySmallOverManyStages) {
     }
 }
 
-TEST(Las, EveryCorrelationModelIsBetterThanAsPublished) {
-    for (const Correlation kind :
-         {Correlation::separable_markov, Correlation::gaussian, Correlation::spherical,
-          Correlation::matern32, Correlation::matern52}) {
-        for (const double theta_y : {0.1, 1.0}) {
-            const CorrelationModel model(paper_theta(theta_y), kind);
+// From 54 cells to the paper's blocks, over the correlation lengths where each is worst. Regression
+// values, rounded up, as README.md has them.
+TEST(Las, ErrorsOfEveryCorrelationModelAreThoseStated) {
+    struct Row {
+        Correlation kind;
+        double from_54;   // at theta_y = 0.1, 0.3 m: the larger one
+        CellCount cells;  // where the stated error is reached, with its stage 0 and theta_y
+        std::int64_t stage0;
+        double theta_y;
+    };
+    constexpr CellCount blocks{6, 12, 6}, halves{8, 16, 8};
+    for (const Row& row : {Row{Correlation::markov, 0.0440, halves, 8, 0.1},
+                           Row{Correlation::separable_markov, 0.1013, blocks, 1, 1.0},
+                           Row{Correlation::gaussian, 0.0581, halves, 8, 0.1},
+                           Row{Correlation::spherical, 0.0526, halves, 8, 0.1},
+                           Row{Correlation::matern32, 0.0463, halves, 8, 0.1},
+                           Row{Correlation::matern52, 0.0479, halves, 8, 0.1}}) {
+        SCOPED_TRACE(name_of(row.kind));
+        double worst = 0.0;
+        for (const double theta_y : {0.1, 0.3}) {
+            const CorrelationModel model(paper_theta(theta_y), row.kind);
             const double error = covariance_error(LasGenerator(GridSpec{}, model, 54)).covariance;
-            EXPECT_LT(error, 0.085) << name_of(kind) << theta_y;
             EXPECT_LT(error,
                       0.5 * covariance_error(LasClassicGenerator(GridSpec{}, model, 54)).covariance)
-                << name_of(kind) << theta_y;
+                << theta_y;
+            worst = std::max(worst, error);
         }
+        EXPECT_LT(worst, row.from_54);
+        EXPECT_GT(worst, 0.99 * row.from_54);
+        const LasGenerator las(grid_of(row.cells), {paper_theta(row.theta_y), row.kind},
+                               row.stage0);
+        const double error = covariance_error(las).covariance;
+        EXPECT_LT(error, las.stated_error());
+        EXPECT_GT(error, 0.9 * las.stated_error());
     }
 }
 
@@ -132,10 +155,15 @@ TEST(Las, AnyGridAndAnyCorrelationLength) {
                 EXPECT_LE(first[0] * first[1] * first[2], stage0);
                 EXPECT_EQ(las.stage_cells(las.subdivisions()), cells);
                 const CovarianceError error = covariance_error(las);
-                EXPECT_LT(error.covariance, theta_y > 1e3 ? 1e-5 : 0.06)
+                // Regression values over all grids and stages 0, and 2 %.
+                EXPECT_LT(error.covariance, theta_y < 1e-3  ? 7.3e-6
+                                            : theta_y > 1e3 ? 2.9e-6
+                                                            : 0.047)
                     << theta_y << " stage 0 " << stage0;
                 const LasClassicGenerator classic(grid_of(cells), theta, stage0);
-                EXPECT_LT(covariance_error(classic).covariance, theta_y > 1e3 ? 1e-4 : 0.7);
+                EXPECT_LT(covariance_error(classic).covariance, theta_y < 1e-3  ? 3.4e-3
+                                                                : theta_y > 1e3 ? 2.3e-5
+                                                                                : 0.62);
             }
             const LasGenerator exact(grid_of(cells), theta, 1000);
             EXPECT_TRUE(exact.exact());
@@ -152,7 +180,7 @@ TEST(Las, OneDimensionalMarkovFieldsAreNearlyExact) {
     for (const double theta : {0.1, 1.0, 10.0}) {
         const LasGenerator las(grid_of({1, 64, 1}), {Vec3(1e3, theta, 1e3)}, 1);
         EXPECT_EQ(las.subdivisions(), 6u);
-        EXPECT_LT(covariance_error(las).covariance, 0.025) << theta;
+        EXPECT_LT(covariance_error(las).covariance, 0.0225) << theta;
     }
 }
 
@@ -184,6 +212,27 @@ TEST(Las, DoesNotDependOnThreads) {
     EXPECT_EQ(fields[0], fields[2]);
 }
 
+// The same bits on every instruction set of this machine, normals and sums.
+TEST(Las, DoesNotDependOnTheInstructionSet) {
+    const LasGenerator las(grid_of({13, 24, 12}, 0.125), paper_theta(0.1), 54);
+    std::vector<std::vector<double>> fields;
+    const std::int64_t all = hwy::SupportedTargets();
+    for (const std::int64_t target :
+         {std::int64_t{HWY_AVX3}, std::int64_t{HWY_AVX2}, std::int64_t{HWY_STATIC_TARGET}}) {
+        if ((all & target) == 0) continue;
+        hwy::SetSupportedTargetsForTest(target);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        std::vector<double> normals(las.normals());
+        core::RandomStream(3, core::Stream::field_friction).normals(8, 0, normals);
+        fields.emplace_back(las.grid().size());
+        las.apply(normals, fields.back());
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    ASSERT_GE(fields.size(), 1u);
+    for (const std::vector<double>& field : fields) EXPECT_EQ(field, fields.front());
+}
+
 TEST(Las, RefusesWhatCannotBe) {
     const auto refused = [](const CellCount& cells, const Vec3& theta) {
         return input_error([&] { LasGenerator(grid_of(cells), theta); });
@@ -193,8 +242,6 @@ TEST(Las, RefusesWhatCannotBe) {
     EXPECT_NE(refused({2, 2, 2}, Vec3(1, 0, 1)).find("field.correlation_length = [1, 0, 1]"),
               std::string::npos);
     EXPECT_NE(refused({2, 2, 2}, Vec3(1, std::nan(""), 1)).find("nan"), std::string::npos);
-    EXPECT_NE(input_error([] { require_memory(GridSpec{}, 1e18, "las"); }).find("need 1e+09 GB"),
-              std::string::npos);
     GridSpec flat;
     flat.cell_size[1] = 0.0;
     EXPECT_NE(input_error([&] { LasGenerator(flat, paper_theta(1.0)); }).find("cell size"),

@@ -268,9 +268,9 @@ TEST(RowMarginals, RefuseValuesThatThePropertyCannotHave) {
     const RowMarginals rows(normal, Property::friction_angle, GridSpec{{1, 1, 2}, Vec3(1, 1, 1)},
                             1.0);
     EXPECT_NO_THROW((void)rows.values(std::vector{0.0, -6.0}));
-    EXPECT_THROW((void)rows.values(std::vector{0.0, -7.0}), SimulationError);
-    EXPECT_THROW((void)rows.values(std::vector{11.0, 0.0}), SimulationError);
-    EXPECT_THROW((void)rows.values(std::vector{std::nan(""), 0.0}), SimulationError);
+    EXPECT_THROW((void)rows.values(std::vector{0.0, -7.0}), InputError);
+    EXPECT_THROW((void)rows.values(std::vector{11.0, 0.0}), InputError);
+    EXPECT_THROW((void)rows.values(std::vector{std::nan(""), 0.0}), InputError);
 }
 
 TEST(Marginals, SlopeIsTheDerivative) {

@@ -41,7 +41,7 @@ TEST(FieldOptions, MessagesNameKeyAndValue) {
         {[](auto& o) { o.stiffness.cov = std::nan(""); }, "field.stiffness.cov", "nan"},
         {[](auto& o) { o.cross_correlation = 1.01; }, "field.cross_correlation", "1.01"},
         {[](auto& o) { o.cross_correlation = -2.0; }, "field.cross_correlation",
-         "not positive definite"},
+         "must be in [-1, 1]"},
         {[](auto& o) { o.cross_correlation = std::nan(""); }, "field.cross_correlation", "nan"},
         // Distributions that reach what the material cannot have.
         {[](auto& o) { o.stiffness.kind = MarginalKind::normal; }, "field.stiffness.cov",

@@ -32,6 +32,16 @@ class RunMonitor : public core::Monitor {
     const std::filesystem::path& state_;
 };
 
+/// A realization that the property cannot have (one in a billion cells of an unbounded marginal) is
+/// a failed run among others, not the end of the campaign.
+void draw_field(const Config& config, std::int64_t realization, Sample& sample) {
+    try {
+        map_field(config, realization, sample);
+    } catch (const InputError& error) {
+        throw SimulationError(error.what());
+    }
+}
+
 }  // namespace
 
 Row run_work(const Work& work, const Starts& starts, const std::filesystem::path& failed_state,
@@ -42,7 +52,7 @@ Row run_work(const Work& work, const Starts& starts, const std::filesystem::path
     Row row;
     try {
         Sample sample = starts.of(config);
-        map_field(config, work.realization, sample);
+        draw_field(config, work.realization, sample);
         core::Simulation simulation =
             make_simulation(std::move(sample), config, core::choose_kernels(config.solver),
                             "the start of the campaign");

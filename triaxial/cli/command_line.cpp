@@ -9,6 +9,7 @@
 #include <new>
 
 #include "core/errors.hpp"
+#include "randomfield/memory_limit.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/terminal_monitor.hpp"
 #include "triaxial/config/load_config.hpp"
@@ -122,7 +123,10 @@ int run_program(int argc, const char* const* argv) {
     } catch (const Interrupted& error) {
         return fail(130, error.what());
     } catch (const std::bad_alloc&) {
-        return fail(1, "not enough memory");
+        return fail(2, fmt::format("memory ran out: allowed is what fits the {:.3g} GB there are; "
+                                   "lower packing.blocks, --realizations or the number of runs "
+                                   "side by side (--abreast)",
+                                   1e-9 * randomfield::memory_of_process()));
     } catch (const std::exception& error) {
         return fail(1, fmt::format("unexpected: {}", error.what()));
     }

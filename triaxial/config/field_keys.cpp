@@ -7,14 +7,19 @@
 namespace grainfield::triaxial {
 namespace {
 
-constexpr Range correlation_range{-1, 1, true, true,
-                                  "in [-1, 1], where the correlation matrix is positive definite"};
+constexpr Range correlation_range{
+    -1, 1, true, true, "in [-1, 1], where the correlation matrix has no negative eigenvalue"};
+
+// As randomfield/marginal_checks.cpp has them, here with file and line.
+constexpr Range stiffness_range{1e-100, 1e100, true, true, "in [1e-100, 1e100]"};
+constexpr Range variation{1e-6, 1e3, true, true, "in [1e-6, 1000]"};
+constexpr Range variability{1e-6, 1e6, true, true, "in [1e-6, 1e6]"};
 
 /// The distribution of one property, in the table `path`. The contract's keys come first, those of
 /// Eq. (7) for the friction angle and of Eqs. (8)-(9) for the stiffness. A key that its marginal
-/// has no use for has no effect.
+/// has no use for has no effect; `field` says so.
 void add_keys(Keys& keys, randomfield::MarginalOptions& marginal, const std::string& path,
-              const std::string& unit, const Range& range) {
+              const std::string& unit, const Range& range, const Range& of_mean) {
     // A structured binding on purpose, see config_keys.cpp.
     auto& [kind, minimum, maximum, s, mean, cov, mean_gradient, preserve_mean] = marginal;
     const auto add = [&](const char* name, Slot slot, const std::string& note) {
@@ -23,9 +28,9 @@ void add_keys(Keys& keys, randomfield::MarginalOptions& marginal, const std::str
     const std::string bounds = unit + ": of \"bounded\", \"truncated-normal\", \"beta\"";
     add("minimum", slot(minimum, range), bounds);
     add("maximum", slot(maximum, range), bounds);
-    add("s", slot(s, positive), "of \"bounded\": variability factor");
-    add("mean", slot(mean, range), unit + ": at mid-height; of all but \"bounded\"");
-    add("cov", slot(cov, positive), "coefficient of variation; of all but \"bounded\"");
+    add("s", slot(s, variability), "of \"bounded\": variability factor");
+    add("mean", slot(mean, of_mean), unit + ": at mid-height; of all but \"bounded\"");
+    add("cov", slot(cov, variation), "coefficient of variation; of all but \"bounded\"");
     add("preserve_mean", slot(preserve_mean), "rescale so that cells have a point's mean");
     add("marginal", slot(kind, marginal_names),
         "\"bounded\", \"lognormal\", \"normal\", \"truncated-normal\", \"beta\", \"weibull\"");
@@ -54,8 +59,9 @@ void add_keys(Keys& keys, randomfield::FieldOptions& field) {
                     "of friction angle and stiffness, where both are random"});
     keys.push_back({"field.data", optional_text_slot(data, "the name of a CSV file"),
                     "optional: CSV of measured values to condition on"});
-    add_keys(keys, friction, "field.friction", "rad", below_right_angle);
-    add_keys(keys, stiffness, "field.stiffness", "Pa", positive);
+    add_keys(keys, friction, "field.friction", "rad", below_right_angle,
+             {0, below_right_angle.high, false, false, "in (0, pi/2)"});
+    add_keys(keys, stiffness, "field.stiffness", "Pa", stiffness_range, stiffness_range);
 }
 
 }  // namespace grainfield::triaxial

@@ -31,7 +31,7 @@ struct FieldRecord {
     std::int64_t realization = 0;
     double gamma = 0;                        ///< variance of a cell's G [-]
     std::optional<double> covariance_error;  ///< of the generator, in gamma [-]
-    double mean_ratio_expected = 1;          ///< E[k]/mu (stiffness), before any data [-]
+    double mean_ratio_expected = 1;          ///< E[k]/mu (stiffness) [-]
     double mean_ratio_cells = 1;             ///< of this realization's cells [-]
     randomfield::BlockField field;           ///< empty without a random variable
 };

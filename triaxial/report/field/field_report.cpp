@@ -30,31 +30,31 @@ std::string column_name(const FieldCheck& check) {
 }
 
 std::string correlation_csv(const Verification& verification, const Vec3& edge) {
-    std::string text = "field,axis,lag_cells,lag_m,estimate,exact,half_width_99\n";
+    std::string text = "field,axis,lag_cells,lag_m,estimate,exact,low_99,high_99\n";
     for (const FieldCheck& check : verification.fields)
         for (std::size_t d = 0; d < 3; ++d)
             for (std::size_t h = 0; h < check.correlation[d].size(); ++h) {
                 const Estimate& one = check.correlation[d][h];
-                fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{}\n",
+                fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}\n",
                                column_name(check), "xyz"[d], h,
                                static_cast<double>(h) * edge[static_cast<Eigen::Index>(d)],
-                               one.estimate, one.exact, one.half_width);
+                               one.estimate, one.exact, one.low, one.high);
             }
     return text;
 }
 
 std::string histogram_csv(const Verification& verification) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    std::string text = "field,from,to,share,predicted,half_width_99\n";
+    std::string text = "field,from,to,share,predicted,low_99,high_99\n";
     for (const FieldCheck& check : verification.fields) {
         if (!check.histogram) continue;
         const auto& edges = check.histogram->edges;
         for (std::size_t b = 0; b < check.histogram->shares.size(); ++b) {
             const Estimate& one = check.histogram->shares[b];
-            fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{}\n", column_name(check),
+            fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{}\n", column_name(check),
                            b == 0 ? -infinity : edges[b - 1],
                            b == edges.size() ? infinity : edges[b], one.estimate, one.exact,
-                           one.half_width);
+                           one.low, one.high);
         }
     }
     return text;
@@ -133,9 +133,9 @@ std::string page_of(const FieldGenerator& generator, const Verification& verific
         fmt::format(
             "γ = {}, the exact variance of a block’s average <i>G</i>. A band of 99 % holds "
             "all numbers of its check together (Bonferroni): a correct field leaves it in "
-            "one verification of a hundred. Bands of means come from the spread of the "
-            "realizations (Student), those of variances from the chi-squared distribution. "
-            "Deviations are not judged: their bands mean little under heavy tails.{}",
+            "one verification of a hundred. Bands follow from the exact covariance and the "
+            "marginal alone: of means the exact variance over realizations, with its "
+            "skewness, of variances the chi-squared distribution.{}",
             significant(verification.gamma, 8),
             generator.conditioning()
                 ? " Data are left out of all checks but their own; the pictures of "

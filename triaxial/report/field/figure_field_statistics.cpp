@@ -44,7 +44,8 @@ Figure correlation_figure(const Gnuplot& gnuplot, const std::string& id,
         std::string rows;
         double lag = 0;
         for (const Estimate& one : check.correlation[d]) {
-            rows += fmt::format("{} {} {} {}\n", lag, one.estimate, one.exact, one.half_width);
+            rows +=
+                fmt::format("{} {} {} {} {}\n", lag, one.estimate, one.exact, one.low, one.high);
             lag += edge;
         }
         gnuplot.data(fmt::format("{}-{}.dat", id, axis), rows);
@@ -62,14 +63,14 @@ Figure correlation_figure(const Gnuplot& gnuplot, const std::string& id,
         };
         above += panel(R"(set xrange [{low}:{high}]
 set ylabel '{correlation}' offset 1,0
-plot '{id}-{axis}.dat' using 1:($3-$4):($3+$4) with filledcurves lc rgb '{soft}' fs transparent solid 0.45 {band}, \
+plot '{id}-{axis}.dat' using 1:4:5 with filledcurves lc rgb '{soft}' fs transparent solid 0.45 {band}, \
  '' using 1:3 with lines lw 1.6 lc rgb '{main}' {exact}, \
  '' using 1:2 with points pt 7 ps 0.45 lc rgb '{contrast}' {estimated}
 )");
         below += panel(R"(set xrange [{low}:{high}]
 set xlabel 'Lag in {{/:Italic {axis}}} (m)' offset 0,0.3
 set ylabel '{off}' offset 1,0
-plot '{id}-{axis}.dat' using 1:(-$4):4 with filledcurves lc rgb '{soft}' fs transparent solid 0.45 notitle, \
+plot '{id}-{axis}.dat' using 1:($4-$3):($5-$3) with filledcurves lc rgb '{soft}' fs transparent solid 0.45 notitle, \
  0 with lines lw 1.6 lc rgb '{main}' notitle, \
  '' using 1:($2-$3) with points pt 7 ps 0.45 lc rgb '{contrast}' notitle
 )");
@@ -138,9 +139,9 @@ Figure cell_histogram_figure(const Gnuplot& gnuplot, const std::string& id,
         // The two outer bins go on beyond the picture, where a share of 0.001 lies.
         const double beyond = b == 0 || b + 1 == check.shares.size() ? 1e-3 : 0.0;
         const double width = (edges[b + 1] - edges[b]) / unit.size;
-        rows += fmt::format("{} {} {} {} {}\n", 0.5 * (edges[b] + edges[b + 1]) / unit.size,
+        rows += fmt::format("{} {} {} {} {} {}\n", 0.5 * (edges[b] + edges[b + 1]) / unit.size,
                             (one.estimate - beyond) / width, width, (one.exact - beyond) / width,
-                            one.half_width / width);
+                            (one.low - beyond) / width, (one.high - beyond) / width);
     }
     constexpr int points = 400;
     const double step = (check.last - check.first) / points;
@@ -161,7 +162,7 @@ set style fill solid 0.5 border lc rgb '#ffffff'
 set key above right maxrows 1
 plot '{id}-bins.dat' using 1:2:3 with boxes lc rgb '{soft}' title 'cells', \
  '{id}-curve.dat' using 1:2 with lines lw 1.8 lc rgb '{contrast}' title 'predicted', \
- '{id}-bins.dat' using 1:4:($1-0.22*$3):($1+0.22*$3):($4-$5):($4+$5) with boxxyerror fs transparent solid 0.4 noborder lc rgb '{ink}' title '{level} % band'
+ '{id}-bins.dat' using 1:4:($1-0.22*$3):($1+0.22*$3):5:6 with boxxyerror fs transparent solid 0.4 noborder lc rgb '{ink}' title '{level} % band'
 )",
         fmt::arg("low", check.first / unit.size), fmt::arg("high", check.last / unit.size),
         fmt::arg("label", unit.label), fmt::arg("unit", unit.name), fmt::arg("id", id),
@@ -169,9 +170,10 @@ plot '{id}-bins.dat' using 1:2:3 with boxes lc rgb '{soft}' title 'cells', \
         fmt::arg("ink", colour::ink), fmt::arg("level", level));
     return {
         gnuplot.svg(id, "Histogram of the cells' " + property_name(property), {640, 420}, script),
-        fmt::format("The {} of all blocks in bins of 5 % each, the predicted distribution of a "
-                    "block’s value, and the band in which all bins together lie with {} %.",
-                    property_name(property), level)};
+        fmt::format(
+            "The {} of all blocks in bins of mostly 5 % each, the predicted distribution of a "
+            "block’s value, and the band in which all bins together lie with {} %.",
+            property_name(property), level)};
 }
 
 Figure variance_figure(const Gnuplot& gnuplot, const std::string& id,
