@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -13,10 +14,15 @@
 namespace grainfield::core {
 namespace {
 
-void check_finite(const ParticleStore& spheres) {
-    for (std::size_t i = 0; i < spheres.size(); ++i)
-        if (!spheres.position[i].allFinite())
-            throw SimulationError(fmt::format("the position of sphere {} is not a number", i));
+void check_finite(const ParticleStore& spheres, const Vec3Column& before) {
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+        if (spheres.position[i].allFinite()) continue;
+        std::string what = fmt::format("the position of sphere {} is not a number", i);
+        if (i < before.size())
+            what += fmt::format(", it was near ({:g}, {:g}, {:g}) m", before.x[i], before.y[i],
+                                before.z[i]);
+        throw SimulationError(what);
+    }
 }
 
 std::vector<kernels::WallPair> find_wall_pairs(const ParticleStore& spheres,
@@ -52,7 +58,7 @@ kernels::ContactColumns ContactList::columns(std::size_t first) {
 }
 
 void ContactList::build(const ParticleStore& spheres, std::span<const Wall> walls, double skin) {
-    check_finite(spheres);
+    check_finite(spheres, built_position_);
     const auto old_pairs = std::move(pairs_);
     const auto old_wall_pairs = std::move(wall_pairs_);
     const auto old_shear = std::move(shear_);

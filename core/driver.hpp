@@ -2,6 +2,9 @@
 // One step of a driven simulation: forces, step length, steering, motion, the watch, and the
 // checkpoints between steps.
 
+#include <optional>
+#include <vector>
+
 #include "core/errors.hpp"
 #include "core/monitor.hpp"
 #include "core/simulation.hpp"
@@ -30,6 +33,8 @@ class Driver {
             if (look || control_.due(simulation_)) {
                 simulation_.compute_forces(look);
                 if (look && energies_ && simulation_.steps() >= next_energy_) log_energy();
+                if (look && most_kinetic_ && simulation_.steps() >= next_kinetic_)
+                    check_kinetic_energy();
                 const double step = control_.next(simulation_);
                 steer(step);
                 simulation_.advance(step);
@@ -37,7 +42,7 @@ class Driver {
                 const double step = control_.next(simulation_);
                 simulation_.step(step, [&] { steer(step); });
             }
-            if (simulation_.steps() % watch_interval == 0) watch();
+            if (simulation_.steps() % watch_interval == 0 || simulation_.alarmed()) watch();
         } catch (const SimulationError&) {
             monitor_.ended_early(simulation_);
             throw;
@@ -51,6 +56,11 @@ class Driver {
         if (monitor_.stop_requested()) stop();
         if (checkpoint_ != nullptr && checkpoint_->due()) save();
     }
+
+    /// From now on the kinetic energy must not exceed this [J]; looked at every 200 steps or so, at
+    /// steps that look. A sample whose step is too long for it heats up even where no single sphere
+    /// moves far. SimulationError names the fastest sphere.
+    void limit_kinetic_energy(double most) { most_kinetic_ = most; }
 
     /// Adds the simulation's ledger to `rows` about every 200 steps, at steps that look, and
     /// whenever log_energy() is called; forces and sums must be current then.
@@ -75,6 +85,8 @@ class Driver {
     Checkpoint* checkpoint() { return checkpoint_; }
 
   private:
+    void check_kinetic_energy();
+    void check_before_save();
     [[noreturn]] void stop();
     void save();
 
@@ -85,6 +97,8 @@ class Driver {
     static constexpr std::int64_t energy_interval = 200;  // [steps]
     std::vector<EnergyRow>* energies_ = nullptr;
     std::int64_t next_energy_ = 0;
+    std::optional<double> most_kinetic_;  // [J]
+    std::int64_t next_kinetic_ = 0;
     Checkpoint::Part part_;  // last: it loads what stands above
 };
 

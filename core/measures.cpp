@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "kernels/contact_law.hpp"
 
 namespace grainfield::core {
@@ -21,6 +22,12 @@ std::vector<Branch> force_branches(const Simulation& simulation) {
         }
     }
     return branches;
+}
+
+double kinetic_energy(const Simulation& simulation) {
+    const ParticleStore& s = simulation.spheres();
+    return sum_over<double>(
+        s.size(), [&](std::size_t i) { return 0.5 * s.mass[i] * s.velocity[i].squaredNorm(); });
 }
 
 Eigen::Matrix3d mean_stress(const Simulation& simulation, double volume) {

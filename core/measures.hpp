@@ -19,6 +19,9 @@ struct Fabric {
 };
 Fabric measure_fabric(const Simulation& simulation);
 
+/// Kinetic energy of the spheres' translation in the middle of the last step [J].
+double kinetic_energy(const Simulation& simulation);
+
 /// Mean stress tensor in a volume that holds all contacts: sum of force times branch vector over
 /// volume (Love, Weber); compression positive [Pa]. Branches to walls end at the wall.
 Eigen::Matrix3d mean_stress(const Simulation& simulation, double volume);

@@ -1,8 +1,11 @@
 #include "core/reference_engine.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "core/errors.hpp"
 #include "core/parallel.hpp"
 
 namespace grainfield::core {
@@ -16,11 +19,23 @@ void ReferenceEngine::invalidate_lists() {
     max_square_displacement_ = HUGE_VAL;
 }
 
+bool ReferenceEngine::alarmed() const {
+    const ParticleStore& s = world_.spheres();
+    for (std::size_t i = 0; i < s.size(); ++i)
+        if (!(s.velocity[i].norm() * world_.old_step < 0.5 * s.radius[i])) return true;
+    return false;
+}
+
 // --- the step ------------------------------------------------------------------------------------
 
 void ReferenceEngine::compute_forces(bool sums) {
     if (lists_outdated()) {
-        contacts_.build(world_.spheres(), world_.scene.walls, world_.options.skin);
+        try {
+            contacts_.build(world_.spheres(), world_.scene.walls, world_.options.skin);
+        } catch (const SimulationError& error) {
+            throw SimulationError(
+                fmt::format("{} (step {}, time {:g} s)", error.what(), world_.steps, world_.time));
+        }
         max_square_displacement_ = 0;
     }
     const kernels::SphereColumns s = sphere_columns();

@@ -38,6 +38,7 @@ class ReferenceEngine : public Engine {
     void save(StateWriter& archive) const override;
     void load(StateReader& archive) override;
     bool suspicious() const override { return true; }
+    bool alarmed() const override;
     std::int64_t list_builds() const override { return contacts_.builds(); }
 
   private:

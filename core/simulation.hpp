@@ -120,6 +120,8 @@ class Simulation {
     /// not a number, an overlap exceeds half a radius, or a sphere moves more than half its radius
     /// in a step. Looks in full only where the engine has noticed something.
     void check_state() const;
+    /// True if the last step gives reason to call check_state() at once.
+    bool alarmed() const { return engine_->alarmed(); }
 
     /// Hash of the whole mechanical state (positions, velocities, spins, touching contacts with
     /// their shear forces, walls, time), as 16 hexadecimal digits.

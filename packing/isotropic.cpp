@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "core/state/part_of.hpp"
@@ -42,6 +43,15 @@ double axis_stress(const core::Simulation& simulation, int axis) {
            wall_area(box_dimensions(simulation), axis);
 }
 
+double most_kinetic_energy(const core::Simulation& simulation, double rate, double stress) {
+    const auto& mass = simulation.spheres().mass;
+    const double total = std::accumulate(mass.begin(), mass.end(), 0.0);
+    const Vec3 size = box_dimensions(simulation);
+    // Velocities from 0 to rate * size along each axis.
+    const double imposed = total * rate * rate * size.squaredNorm() / 6;
+    return 10 * imposed + 0.01 * stress * size.prod();
+}
+
 IsotropicResult compress_isotropically(core::Driver& driver, double stress) {
     core::Simulation& simulation = driver.simulation();
     const Vec3 start = box_dimensions(simulation);
@@ -57,6 +67,7 @@ IsotropicResult compress_isotropically(core::Driver& driver, double stress) {
             archive(core::bytes(result));
             for (core::WallServo& servo : servos) archive(servo);
         });
+    driver.limit_kinetic_energy(most_kinetic_energy(simulation, most_strain_rate, stress));
     for (bool reached = false; !reached; ++result.steps) {
         driver.safe_point();
         const bool look = result.steps % 20 == 0;

@@ -15,6 +15,11 @@ double wall_area(const Vec3& dimensions, int axis);
 /// Mean compressive stress on the two walls that face an axis [Pa].
 double axis_stress(const core::Simulation& simulation, int axis);
 
+/// What the kinetic energy of a sample that is strained at `rate` [1/s] under `stress` [Pa] never
+/// reaches while its step is short enough: ten times that of the motion imposed, and a hundredth of
+/// stress times volume, many times the energy in the contacts [J].
+double most_kinetic_energy(const core::Simulation& simulation, double rate, double stress);
+
 struct IsotropicResult {
     std::int64_t steps = 0;             ///< [-]
     double unbalanced_force_ratio = 0;  ///< at the end [-]

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/parallel.hpp"
+#include "core/measures.hpp"
 #include "core/servo.hpp"
 #include "core/state/part_of.hpp"
 
@@ -22,12 +22,6 @@ constexpr std::int64_t look_every = 20;   // steps between two looks
 constexpr double relaxation_begins = 0.05;  // of the weight [-]
 constexpr double relaxation = 0.9;          // factor on the velocities [-]
 constexpr std::int64_t most_steps = 200000;
-
-double kinetic_energy(const core::Simulation& simulation) {
-    const core::ParticleStore& s = simulation.spheres();
-    return core::sum_over<double>(
-        s.size(), [&](std::size_t i) { return 0.5 * s.mass[i] * s.velocity[i].squaredNorm(); });
-}
 
 }  // namespace
 
@@ -55,7 +49,7 @@ void settle_under_gravity(core::Driver& driver, std::size_t floor_wall, double g
         });
         if (!look) continue;
         if (ratio < rest && std::abs(floor_error) < floor_tolerance &&
-            kinetic_energy(simulation) < negligible)
+            core::kinetic_energy(simulation) < negligible)
             break;
         if (steps % 100 == 0)
             driver.monitor().progress(

@@ -48,6 +48,7 @@ class VectorEngine : public Engine {
     void load(StateReader& archive) override;
     bool suspicious() const override { return suspicious_; }
     void cleared() override { suspicious_ = false; }
+    bool alarmed() const override { return suspicious_; }
     std::int64_t list_builds() const override { return builds_; }
     StepCost step_cost() const override;
     std::int64_t searches() const override { return searches_; }

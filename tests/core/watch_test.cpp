@@ -46,9 +46,9 @@ std::string failure(Scene scene, const kernels::KernelTable& table, const std::s
     Simulation sim(std::move(scene), table);
     Driver driver(sim, {.step = step}, monitor);
     const auto no_steering = [](double) {};
-    for (int k = 0; k < 10; ++k) driver.step(false, no_steering);
-    spoil(sim);
     try {
+        for (int k = 0; k < 10; ++k) driver.step(false, no_steering);
+        spoil(sim);
         for (int k = 0; k < Driver::watch_interval; ++k) driver.step(false, no_steering);
     } catch (const SimulationError& error) {
         const std::string what = error.what();

@@ -88,7 +88,7 @@ void KeptRun::ended_early(const core::Simulation& simulation) {
 std::string KeptRun::failure_text() const {
     std::string text;
     if (kept_) text = fmt::format("; the state is in {}", state_.string());
-    if (checkpoint_.saves() > 0)
+    if (std::filesystem::exists(checkpoint_.file()))
         text += fmt::format("; the last checkpoint is {}", checkpoint_.file().string());
     return text;
 }

@@ -68,7 +68,8 @@ class SceneRun {
             for (ServoWall& s : servos_)
                 s.servo.steer(simulation_, s.area(simulation_.walls()), step);
             simulation_.advance(step);
-            if (simulation_.steps() % core::Driver::watch_interval == 0) driver_.watch();
+            if (simulation_.steps() % core::Driver::watch_interval == 0 || simulation_.alarmed())
+                driver_.watch();
             if (reported_.seconds() > report_interval) report();
         }
         report();

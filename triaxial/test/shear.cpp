@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/errors.hpp"
 #include "core/state/part_of.hpp"
 #include "packing/isotropic.hpp"
 
@@ -15,6 +16,8 @@ constexpr std::size_t top_wall = 3;          // y high, in the order of box_wall
 constexpr double recording_interval = 5e-5;  // of axial strain [-]
 constexpr double servo_speed_share = 5.0;    // cap of the side walls over the axial rate [-]
 constexpr double settled_strain = 1e-3;      // from here the largest servo error counts [-]
+constexpr double servo_lost = 0.5;           // error of a lateral stress that ends a test ... [-]
+constexpr int servo_patience = 150;          // ... after so many steps in a row
 
 /// Poisson's ratio of a random packing whose spheres move with the mean strain:
 /// (1 - lambda)/(4 + lambda). Only the start of the test uses it.
@@ -67,11 +70,27 @@ void ShearStage::steer(double step) {
                       packing::axis_stress(simulation, 2));
     stress_sum_ += stress;
     ++stress_count_;
+    double worst = 0;
     for (int axis : {0, 2}) {
         const double error = stress[axis] / options_.confining_stress - 1;
         square_error_sum_ += error * error;
+        worst = std::max(worst, std::abs(error));
     }
     time_ += step;
+    watch_servos(worst);
+}
+
+/// Ends a test whose side walls cannot follow: what it would measure is another stress path.
+void ShearStage::watch_servos(double error) {
+    steps_off_ = error > servo_lost && axial_strain() > settled_strain ? steps_off_ + 1 : 0;
+    if (steps_off_ < servo_patience) return;
+    const core::Simulation& simulation = driver_.simulation();
+    throw SimulationError(fmt::format(
+        "the side walls do not hold the confining stress of {:g} Pa: {:g} and {:g} Pa now, more "
+        "than {:g} % off for {} steps (step {}, time {:g} s, axial strain {:.3f} %)",
+        options_.confining_stress, packing::axis_stress(simulation, 0),
+        packing::axis_stress(simulation, 2), 100 * servo_lost, servo_patience, simulation.steps(),
+        simulation.time(), 100 * axial_strain()));
 }
 
 /// Adds a point to the curve; true if the test may end.
@@ -110,7 +129,7 @@ template <class Archive>
 void ShearStage::archive_state(Archive& archive) {
     using core::bytes;
     archive(bytes(start_size_), bytes(curve_), peak_, steps_, time_, bytes(stress_sum_),
-            stress_count_, next_strain_, square_error_sum_, max_error_);
+            stress_count_, next_strain_, square_error_sum_, max_error_, steps_off_);
     for (core::WallServo& servo : servos_) archive(servo);
 }
 
@@ -118,6 +137,8 @@ void ShearStage::run() {
     const auto part = core::part_of(driver_.checkpoint(), "shear",
                                     [this](auto& archive) { archive_state(archive); });
     if (!part.resumed()) start_affine();
+    driver_.limit_kinetic_energy(packing::most_kinetic_energy(
+        driver_.simulation(), options_.strain_rate, options_.confining_stress));
     for (bool ended = false; !ended;) {
         driver_.safe_point();
         const bool due = axial_strain() >= next_strain_;

@@ -33,6 +33,7 @@ class ShearStage {
     void archive_state(Archive& archive);
     void start_affine();
     void steer(double step);
+    void watch_servos(double error);
     bool record();
     double axial_strain() const;
 
@@ -51,6 +52,7 @@ class ShearStage {
     double next_strain_ = 0;
     // Servo quality.
     double square_error_sum_ = 0, max_error_ = 0;
+    int steps_off_ = 0;  // in a row
 };
 
 }  // namespace grainfield::triaxial

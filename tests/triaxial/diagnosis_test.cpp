@@ -1,0 +1,146 @@
+// Faults put into a running test: each must end it within 200 steps of the moment it can be known,
+// with sphere or wall, step, time and place in the message, and the state told to the monitor.
+
+#include <gmock/gmock.h>
+
+#include <functional>
+
+#include "core/errors.hpp"
+#include "core/kernel_choice.hpp"
+#include "packing/isotropic.hpp"
+#include "tests/kernels/kernel_tables.hpp"
+#include "tests/triaxial/small_test.hpp"
+#include "triaxial/test/shear.hpp"
+
+namespace grainfield::triaxial {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Spoils the simulation at a step; remembers when it ended early.
+struct Saboteur : core::Monitor {
+    core::Simulation* simulation = nullptr;
+    std::int64_t at = 0, spoilt_steps = 1;
+    std::function<void(core::Simulation&)> spoil;
+    std::int64_t told_at = -1;
+
+    // Asked at every step.
+    bool stop_requested() const override {
+        const std::int64_t step = simulation->steps();
+        if (step >= at && step < at + spoilt_steps) spoil(*simulation);
+        return false;
+    }
+    void ended_early(const core::Simulation& s) override { told_at = s.steps(); }
+};
+
+class Diagnosis : public kernels::KernelTest {
+  protected:
+    Diagnosis() : sample_(testing::dense_sample(400)), config_(testing::small_config(sample_)) {
+        config_.triaxial.max_axial_strain = 0.01;
+    }
+    /// Message of a test that is spoilt at that step; it must end within 200 steps.
+    std::string failure(std::int64_t at, const std::function<void(core::Simulation&)>& spoil) {
+        core::Simulation simulation(make_scene(sample_, config_), table());
+        Saboteur saboteur;
+        saboteur.simulation = &simulation;
+        saboteur.at = at;
+        saboteur.spoil = spoil;
+        saboteur.spoilt_steps = spoilt_steps_;
+        try {
+            run_test(simulation, config_, saboteur);
+        } catch (const SimulationError& error) {
+            EXPECT_GE(simulation.steps(), at);
+            EXPECT_LE(simulation.steps(), at + 200) << error.what();
+            EXPECT_EQ(saboteur.told_at, simulation.steps());
+            EXPECT_THAT(error.what(), HasSubstr("step "));
+            EXPECT_THAT(error.what(), HasSubstr("time "));
+            return error.what();
+        }
+        ADD_FAILURE() << "not noticed";
+        return "";
+    }
+    std::int64_t spoilt_steps_ = 1;
+    Sample sample_;
+    Config config_;
+};
+
+void add_velocity(core::Simulation& simulation, std::size_t sphere, const Vec3& velocity) {
+    simulation.add_velocities(
+        [&](std::size_t i, const Vec3&) { return i == sphere ? velocity : Vec3(Vec3::Zero()); });
+}
+
+TEST_P(Diagnosis, OfANumberThatIsNone) {
+    const std::string what = failure(333, [](core::Simulation& s) {
+        add_velocity(s, 123, Vec3(0, std::numeric_limits<double>::quiet_NaN(), 0));
+    });
+    EXPECT_THAT(what, HasSubstr("not a number"));
+    EXPECT_THAT(what, ::testing::ContainsRegex("(at|near) [(].*[)] m"));
+}
+
+TEST_P(Diagnosis, OfASphereThatIsLost) {
+    const std::string what = failure(70, [](core::Simulation& s) {
+        add_velocity(s, 17, Vec3(0, 0.7 * 0.025 / s.last_step(), 0));
+    });
+    EXPECT_THAT(what, ::testing::AnyOf(HasSubstr("lost"), HasSubstr("overlap"),
+                                       HasSubstr("half its radius")));
+    EXPECT_THAT(what, HasSubstr("(sphere "));
+}
+
+TEST_P(Diagnosis, OfAKineticEnergyThatExplodes) {
+    // Energy that keeps coming from nowhere, as in a step that is too long. No sphere moves far in
+    // a step: 2 m/s are a hundredth of a radius.
+    spoilt_steps_ = 1000;
+    for (const std::int64_t at : {60, 700}) {
+        const std::string what = failure(at, [](core::Simulation& s) {
+            s.add_velocities([](std::size_t i, const Vec3&) {
+                return Vec3(i % 2 == 0 ? 2.0 : -2.0, i % 3 == 0 ? 2.0 : -1.0, 0);
+            });
+        });
+        EXPECT_THAT(what, HasSubstr("unstable: the kinetic energy is "));
+        EXPECT_THAT(what, HasSubstr("fastest sphere "));
+    }
+}
+
+TEST_P(Diagnosis, OfAServoThatCannotHold) {
+    // Shear far above the stress that the sample was brought to: the side walls come in at five
+    // times the axial rate and are still nowhere near it when the start of the test is over.
+    core::Simulation simulation(make_scene(sample_, config_), table());
+    Saboteur saboteur;
+    saboteur.simulation = &simulation;
+    saboteur.at = -1;
+    core::Driver driver(simulation, config_.time, saboteur);
+    packing::compress_isotropically(driver, config_.triaxial.confining_stress);
+    TriaxialOptions options = config_.triaxial;
+    options.confining_stress *= 1000;
+    const std::int64_t begin = simulation.steps();
+    ShearStage shear(driver, options);
+    try {
+        shear.run();
+        ADD_FAILURE() << "not noticed";
+    } catch (const SimulationError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("the side walls do not hold the confining stress"));
+        EXPECT_THAT(error.what(), HasSubstr("axial strain 0.2"));
+        EXPECT_EQ(saboteur.told_at, simulation.steps());
+    }
+    // From 0.1 % of strain on it counts.
+    const double start = std::log(1 / (1 - 1e-3)) / options.strain_rate;
+    EXPECT_LE(
+        simulation.steps() - begin,
+        static_cast<std::int64_t>(start / (shear.time() / static_cast<double>(shear.steps()))) +
+            200);
+}
+
+TEST_P(Diagnosis, LeavesASoundTestAlone) {
+    for (const double rate : {0.01, 1.0}) {
+        config_.triaxial.strain_rate = rate;
+        config_.triaxial.max_axial_strain = 0.003;
+        core::Simulation simulation(make_scene(sample_, config_), table());
+        core::Monitor monitor;
+        EXPECT_NO_THROW(run_test(simulation, config_, monitor)) << rate;
+    }
+}
+
+GRAINFIELD_FOR_ALL_KERNELS(Diagnosis);
+
+}  // namespace
+}  // namespace grainfield::triaxial
