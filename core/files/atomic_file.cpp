@@ -11,30 +11,13 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/files/descriptor.hpp"
 #include "core/files/text_file.hpp"
 
 namespace grainfield::core {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A file descriptor that closes itself.
-struct Descriptor {
-    int fd = -1;
-    explicit Descriptor(int opened) : fd(opened) {}
-    ~Descriptor() {
-        if (fd >= 0) ::close(fd);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-
-    /// Some file systems report a full disk only here. True if all is well.
-    bool close() {
-        const int rc = ::close(fd);
-        fd = -1;
-        return rc == 0;
-    }
-};
 
 [[noreturn]] void fail(const fs::path& target, int error) {
     throw FileError(fmt::format("{}: cannot be written: {}", target.string(), error_text(error)));
@@ -59,15 +42,6 @@ fs::path real_target(const fs::path& target) {
         throw FileError(fmt::format("{}: cannot be written: not a regular file", target.string()));
     }
     return real;
-}
-
-void write_all(int fd, std::string_view content, const fs::path& target) {
-    while (!content.empty()) {
-        const ssize_t n = ::write(fd, content.data(), content.size());
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) fail(target, errno);
-        content.remove_prefix(static_cast<std::size_t>(n));
-    }
 }
 
 }  // namespace
@@ -123,8 +97,7 @@ void write_file_atomically(const fs::path& path, std::string_view content) {
     AtomicFile file(path);
     Descriptor out(::open(file.path().c_str(), O_WRONLY));
     if (out.fd < 0) fail(path, errno);
-    write_all(out.fd, content, path);
-    if (!out.close()) fail(path, errno);
+    if (!out.write_at(0, content) || !out.close()) fail(path, errno);
     file.commit();
 }
 
