@@ -59,17 +59,14 @@ AtomicFile::AtomicFile(const fs::path& target) : target_(real_target(target)) {
 }
 
 AtomicFile::AtomicFile(const fs::path& target, fs::path temporary, bool keep_content)
-    : target_(real_target(target)), temporary_(std::move(temporary)) {
+    : target_(real_target(target)), temporary_(std::move(temporary)), left_(keep_content) {
     const Descriptor file(
-        ::open(temporary_.c_str(), O_CREAT | (keep_content ? 0 : O_TRUNC) | O_WRONLY, 0666));
-    if (file.fd >= 0) return;
-    const int error = errno;
-    temporary_.clear();
-    fail(target_, error);
+        ::open(temporary_.c_str(), O_WRONLY | (keep_content ? 0 : O_CREAT | O_TRUNC), 0666));
+    if (file.fd < 0) fail(target_, errno);
 }
 
 AtomicFile::~AtomicFile() {
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    if (!temporary_.empty() && !left_) ::unlink(temporary_.c_str());
 }
 
 void AtomicFile::commit() {
