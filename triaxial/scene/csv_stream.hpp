@@ -23,8 +23,8 @@ class CsvStream {
 
     /// Begins a table. FileError where the file cannot be made or written, here and below.
     CsvStream(const std::filesystem::path& path, std::string_view header);
-    /// Goes on with the rows that were there at `mark`; later ones are dropped. FileError where
-    /// these are not there any more.
+    /// Goes on with the rows that were there at `mark`, whether the table has its name already or
+    /// not; later ones are dropped. FileError where these are not there any more.
     CsvStream(const std::filesystem::path& path, const Mark& mark);
     ~CsvStream();
 
