@@ -75,8 +75,8 @@ class Engine {
     /// True if the steps since cleared() give reason to look at the whole state.
     virtual bool suspicious() const = 0;
     virtual void cleared() {}
-    /// True if the last step gives reason to look at once: a sphere moved more than half its radius,
-    /// or two overlap too much. It may look sound again a few steps later.
+    /// True if the last step gives reason to look at once: a sphere moved more than half its
+    /// radius, or two overlap too much. It may look sound again a few steps later.
     virtual bool alarmed() const = 0;
     virtual std::int64_t list_builds() const = 0;
     /// Of the step taken last.

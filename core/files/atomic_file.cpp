@@ -11,30 +11,13 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/files/descriptor.hpp"
 #include "core/files/text_file.hpp"
 
 namespace grainfield::core {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A file descriptor that closes itself.
-struct Descriptor {
-    int fd = -1;
-    explicit Descriptor(int opened) : fd(opened) {}
-    ~Descriptor() {
-        if (fd >= 0) ::close(fd);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-
-    /// Some file systems report a full disk only here. True if all is well.
-    bool close() {
-        const int rc = ::close(fd);
-        fd = -1;
-        return rc == 0;
-    }
-};
 
 [[noreturn]] void fail(const fs::path& target, int error) {
     throw FileError(fmt::format("{}: cannot be written: {}", target.string(), error_text(error)));
@@ -61,15 +44,6 @@ fs::path real_target(const fs::path& target) {
     return real;
 }
 
-void write_all(int fd, std::string_view content, const fs::path& target) {
-    while (!content.empty()) {
-        const ssize_t n = ::write(fd, content.data(), content.size());
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) fail(target, errno);
-        content.remove_prefix(static_cast<std::size_t>(n));
-    }
-}
-
 }  // namespace
 
 AtomicFile::AtomicFile(const fs::path& target) : target_(real_target(target)) {
@@ -85,17 +59,14 @@ AtomicFile::AtomicFile(const fs::path& target) : target_(real_target(target)) {
 }
 
 AtomicFile::AtomicFile(const fs::path& target, fs::path temporary, bool keep_content)
-    : target_(real_target(target)), temporary_(std::move(temporary)) {
+    : target_(real_target(target)), temporary_(std::move(temporary)), left_(keep_content) {
     const Descriptor file(
-        ::open(temporary_.c_str(), O_CREAT | (keep_content ? 0 : O_TRUNC) | O_WRONLY, 0666));
-    if (file.fd >= 0) return;
-    const int error = errno;
-    temporary_.clear();
-    fail(target_, error);
+        ::open(temporary_.c_str(), O_WRONLY | (keep_content ? 0 : O_CREAT | O_TRUNC), 0666));
+    if (file.fd < 0) fail(target_, errno);
 }
 
 AtomicFile::~AtomicFile() {
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    if (!temporary_.empty() && !left_) ::unlink(temporary_.c_str());
 }
 
 void AtomicFile::commit() {
@@ -123,8 +94,7 @@ void write_file_atomically(const fs::path& path, std::string_view content) {
     AtomicFile file(path);
     Descriptor out(::open(file.path().c_str(), O_WRONLY));
     if (out.fd < 0) fail(path, errno);
-    write_all(out.fd, content, path);
-    if (!out.close()) fail(path, errno);
+    if (!out.write_at(0, content) || !out.close()) fail(path, errno);
     file.commit();
 }
 

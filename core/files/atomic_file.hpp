@@ -14,7 +14,8 @@ class AtomicFile {
     /// Creates the temporary, empty. The target's folder must exist; a link is followed.
     explicit AtomicFile(const std::filesystem::path& target);
     /// The same with a temporary of this name, in the target's folder. What has that name is lost,
-    /// unless `keep_content`: then it is the content so far.
+    /// unless `keep_content`: then it is the content so far, and stays where it is unless
+    /// committed.
     AtomicFile(const std::filesystem::path& target, std::filesystem::path temporary,
                bool keep_content = false);
     ~AtomicFile();
@@ -25,7 +26,7 @@ class AtomicFile {
     const std::filesystem::path& path() const { return temporary_; }
 
     /// Leaves the temporary where it is, for whoever goes on with it.
-    void leave() { temporary_.clear(); }
+    void leave() { left_ = true; }
 
     /// Flushes the temporary to the disk and gives it the target's name. Whoever wrote it must
     /// have closed it. Call once.
@@ -39,6 +40,7 @@ class AtomicFile {
 
     std::filesystem::path target_;
     std::filesystem::path temporary_;  ///< empty once committed
+    bool left_ = false;                ///< not to be removed
 };
 
 /// Replaces (or makes) the file by these bytes. On any failure FileError names file and reason,

@@ -87,8 +87,9 @@ void Checkpoint::save() {
 
 void Checkpoint::remove() {
     std::error_code ignored;  // what cannot be removed is in nobody's way
-    fs::remove(file_, ignored);
-    fs::remove(file_before(file_), ignored);
+    // The last one last: a run that is killed here can still be resumed.
+    for (const fs::path& file : {unfinished_file(file_), file_before(file_), file_})
+        fs::remove(file, ignored);
 }
 
 Checkpoint::Part::Part(Checkpoint* checkpoint, std::string_view name, Save save, Load load)

@@ -110,10 +110,13 @@ class FileBuffer : public std::streambuf {
 
 }  // namespace
 
+fs::path unfinished_file(const fs::path& file) {
+    return fs::path(file) += ".new";
+}
+
 void write_checkpoint_file(const fs::path& file, const fs::path& before,
                            const std::function<void(std::ostream&)>& content) {
-    // Always the same name: what a killed run leaves behind is written over, not heaped up.
-    AtomicFile target(file, fs::path(file) += ".new");
+    AtomicFile target(file, unfinished_file(file));
     {
         FileBuffer buffer(target.path(), file);
         std::ostream stream(&buffer);

@@ -15,6 +15,10 @@ namespace grainfield::core {
 void write_checkpoint_file(const std::filesystem::path& file, const std::filesystem::path& before,
                            const std::function<void(std::ostream&)>& content);
 
+/// Where a checkpoint stands until it is whole: x.bin -> x.bin.new. Always the same name: what a
+/// killed run leaves behind is written over, not heaped up.
+std::filesystem::path unfinished_file(const std::filesystem::path& file);
+
 /// A checkpoint file whose checksum is right, open where its content begins.
 class CheckpointReader {
   public:

@@ -3,14 +3,13 @@
 // at the end. A run that resumes goes on with the rows that its checkpoint knows.
 
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 
 #include "core/files/atomic_file.hpp"
 #include "core/files/checksum.hpp"
+#include "core/files/descriptor.hpp"
 
 namespace grainfield::triaxial {
 
@@ -24,8 +23,8 @@ class CsvStream {
 
     /// Begins a table. FileError where the file cannot be made or written, here and below.
     CsvStream(const std::filesystem::path& path, std::string_view header);
-    /// Goes on with the rows that were there at `mark`; later ones are dropped. FileError where
-    /// these are not there any more.
+    /// Goes on with the rows that were there at `mark`, whether the table has its name already or
+    /// not; later ones are dropped. FileError where these are not there any more.
     CsvStream(const std::filesystem::path& path, const Mark& mark);
     ~CsvStream();
 
@@ -43,13 +42,16 @@ class CsvStream {
   private:
     [[noreturn]] void fail() const;
     void flush();
+    void bring_to_disk();
+    void write_again();
 
     std::filesystem::path path_;
+    core::Checksum checksum_;  // of the rows written
     core::AtomicFile file_;
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> out_;
+    core::Descriptor out_;
     std::string text_;  // rows not yet written
-    core::Checksum checksum_;
     bool marked_ = false;
+    bool doubtful_ = false;  // some of what was written may never reach the disk
 };
 
 }  // namespace grainfield::triaxial
