@@ -13,6 +13,7 @@
 #include "core/files/sphere_formats.hpp"
 #include "core/files/table_info.hpp"
 #include "core/files/text_file.hpp"
+#include "core/state/checkpoint.hpp"
 
 namespace grainfield::core {
 namespace {
@@ -132,6 +133,15 @@ std::string describe_toml(std::string_view text, const fs::path&) {
     return info;
 }
 
+/// All but the config, which is long.
+std::string describe_checkpoint(std::string_view, const fs::path& path) {
+    const FoundCheckpoint found = open_checkpoint(path);
+    std::string info = "checkpoint, whole; --resume goes on from it\n";
+    for (const auto& [key, value] : found.identity.items())
+        if (key != "config") info += fmt::format("  {}: {}\n", key, value.dump());
+    return info;
+}
+
 }  // namespace
 
 std::string describe_file(const fs::path& path) {
@@ -141,13 +151,15 @@ std::string describe_file(const fs::path& path) {
     if (suffix == ".csv") describe = describe_csv;
     if (suffix == ".json") describe = describe_json;
     if (suffix == ".toml") describe = describe_toml;
+    if (suffix == ".bin") describe = describe_checkpoint;
     if (suffix == ".data")
         describe = [](auto text, auto& p) { return describe_spheres(parse_lammps_data(text, p)); };
     if (suffix == ".txt")
         describe = [](auto text, auto& p) { return describe_spheres(parse_yade_text(text, p)); };
     if (describe == nullptr)
-        throw InputError(fmt::format("{}: suffix '{}' is not known; allowed: {}, .json, .toml",
-                                     path.string(), suffix, sphere_file_suffixes));
+        throw InputError(
+            fmt::format("{}: suffix '{}' is not known; allowed: {}, .json, .toml, .bin",
+                        path.string(), suffix, sphere_file_suffixes));
     return describe(read_whole_file(path), path);
 }
 

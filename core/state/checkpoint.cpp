@@ -12,9 +12,6 @@
 namespace grainfield::core {
 namespace fs = std::filesystem;
 
-namespace {
-
-/// The checkpoint in a file, its identity read.
 FoundCheckpoint open_checkpoint(const fs::path& file) {
     FoundCheckpoint found{file, {}, {}, std::make_shared<CheckpointReader>(file)};
     std::string version, identity;
@@ -26,8 +23,6 @@ FoundCheckpoint open_checkpoint(const fs::path& file) {
     found.identity = nlohmann::json::parse(identity);
     return found;
 }
-
-}  // namespace
 
 fs::path file_before(const fs::path& file) {
     fs::path before = file;

@@ -31,6 +31,9 @@ struct FoundCheckpoint {
     std::shared_ptr<CheckpointReader> reader;
 };
 
+/// The checkpoint in one file. FileError where it is damaged or of another version of the program.
+FoundCheckpoint open_checkpoint(const std::filesystem::path& file);
+
 /// Looks for `file` and the one before it. Nothing where neither is there; FileError, naming both,
 /// where what is there is damaged or of another version of the program.
 std::optional<FoundCheckpoint> find_checkpoint(const std::filesystem::path& file);

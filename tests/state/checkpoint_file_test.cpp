@@ -5,10 +5,10 @@
 
 #include <gmock/gmock.h>
 
-#include <iterator>
-#include <numeric>
+#include <fstream>
 
 #include "core/errors.hpp"
+#include "core/files/file_info.hpp"
 #include "core/files/text_file.hpp"
 #include "core/state/part_of.hpp"
 #include "tests/files/sample.hpp"
@@ -47,6 +47,10 @@ class CheckpointFile : public FilesTest {
         EXPECT_EQ(text, text_);
         return number;
     }
+    /// Without waiting for the disk, thousands of times.
+    void replace(const std::string& content) const {
+        std::ofstream(file(), std::ios::binary) << content;
+    }
     std::string text_ = "state";
 };
 
@@ -63,12 +67,21 @@ TEST_F(CheckpointFile, KeepsTheOneBefore) {
     EXPECT_EQ(load(), 2);
 }
 
+TEST_F(CheckpointFile, SaysWhatItIs) {
+    save(1);
+    const std::string info = describe_file(file());
+    EXPECT_THAT(info, StartsWith("checkpoint, whole"));
+    EXPECT_THAT(info, HasSubstr("  what: \"a number\"\n"));
+    text_file("run.bin", "something else");
+    EXPECT_THAT(message_of<FileError>([&] { describe_file(file()); }), HasSubstr("no checkpoint"));
+}
+
 TEST_F(CheckpointFile, IsRefusedAtEveryLength) {
     save(1);
     const std::string whole = read_whole_file(file());
     ASSERT_LT(whole.size(), 400U);
     for (std::size_t length = 0; length < whole.size(); ++length) {
-        text_file("run.bin", whole.substr(0, length));
+        replace(whole.substr(0, length));
         EXPECT_THAT(message_of<FileError>([&] { find_checkpoint(file()); }),
                     StartsWith(file().string() + ": is "))
             << length;
@@ -83,7 +96,7 @@ TEST_F(CheckpointFile, IsRefusedWithAnyBitFlipped) {
     for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
         std::string flipped = whole;
         flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << bit % 8));
-        text_file("run.bin", flipped);
+        replace(flipped);
         EXPECT_THAT(message_of<FileError>([&] { find_checkpoint(file()); }),
                     StartsWith(file().string() + ": is "))
             << bit;
