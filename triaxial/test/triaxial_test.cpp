@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/errors.hpp"
 #include "core/state/part_of.hpp"
 #include "core/stopwatch.hpp"
 #include "packing/isotropic.hpp"
@@ -97,7 +98,11 @@ void shear(TestResult& result, core::Driver& driver, const Config& config) {
     result.inertia_ratio = driver.control().inertia_ratio();
     result.inertial_number =
         inertial_number(driver.simulation().spheres(), config) * std::sqrt(result.inertia_ratio);
-    result.results = evaluate_curve(result.curve, config.triaxial.confining_stress);
+    try {
+        result.results = evaluate_curve(result.curve, config.triaxial.confining_stress);
+    } catch (const SimulationError& error) {
+        driver.fail(error.what());  // its state is worth a look
+    }
     for (const CurvePoint& p : result.curve) {
         if (p.deviator_stress > 0.5 * result.results.peak_deviator_stress) break;
         result.lowest_start_ratio = std::min(result.lowest_start_ratio,
