@@ -42,12 +42,7 @@ std::vector<SceneWall> read_walls(TomlReader& reader, double particles_stiffness
     return walls;
 }
 
-}  // namespace
-
-SceneFile load_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {
-    TomlValue root = read_toml_file(file);
-    for (const std::string& setting : overrides) merge(root, parse_override(setting));
-
+SceneFile read_scene(const TomlValue& root, const std::filesystem::path& file) {
     SceneFile scene;
     core::TimeOptions time;
     Keys shared;
@@ -72,6 +67,18 @@ SceneFile load_scene(const std::filesystem::path& file, std::span<const std::str
     scene.safety = time.safety;
     scene.mass_scaling = time.mass_scaling;
     return scene;
+}
+
+}  // namespace
+
+SceneFile load_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {
+    TomlValue root = read_toml_file(file);
+    for (const std::string& setting : overrides) merge(root, parse_override(setting));
+    return read_scene(root, file);
+}
+
+SceneFile parse_scene(std::string_view text, const std::filesystem::path& file) {
+    return read_scene(parse_toml(text, file.string()), file);
 }
 
 }  // namespace grainfield::triaxial

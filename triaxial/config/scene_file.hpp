@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/solver_options.hpp"
@@ -44,5 +45,8 @@ struct SceneFile {
 /// sphere file is there is not looked at.
 SceneFile load_scene(const std::filesystem::path& file,
                      std::span<const std::string> overrides = {});
+
+/// The same from a text; `file` names it in messages and is where its spheres are looked for.
+SceneFile parse_scene(std::string_view text, const std::filesystem::path& file);
 
 }  // namespace grainfield::triaxial
