@@ -1,5 +1,4 @@
-// Every file of the corpora, and thousands of ways to spoil each, through the readers, with every
-// test run, under the sanitizers too.
+// Every file of the corpora, and thousands of ways to spoil each, through the readers.
 
 #include <gtest/gtest.h>
 
