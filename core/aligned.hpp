@@ -1,9 +1,11 @@
 #pragma once
-// Memory on cache lines.
+// Memory on cache lines; large arrays on large pages.
 
 #include <cstddef>
 #include <new>
 #include <vector>
+
+#include "core/large_pages.hpp"
 
 namespace grainfield::core {
 
@@ -15,8 +17,17 @@ struct LineAllocator {
     LineAllocator() = default;
     template <class U>
     LineAllocator(const LineAllocator<U>&) {}
-    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), alignment)); }
-    void deallocate(T* p, std::size_t) { ::operator delete(p, alignment); }
+    T* allocate(std::size_t n) {
+        const std::size_t bytes = n * sizeof(T);
+        if (bytes >= least_large_block)
+            if (void* block = allocate_large(bytes, static_cast<std::size_t>(alignment)))
+                return static_cast<T*>(block);
+        return static_cast<T*>(::operator new(bytes, alignment));
+    }
+    void deallocate(T* p, std::size_t n) {
+        if (n * sizeof(T) >= least_large_block && free_large(p)) return;
+        ::operator delete(p, alignment);
+    }
     bool operator==(const LineAllocator&) const { return true; }
 };
 
