@@ -8,72 +8,84 @@ namespace {
 
 /// Records that are idle have a radius of 1: two that are so far apart never touch.
 template <class T>
-constexpr kernels::BuiltSeparation<T> far_apart{{4, 0, 0}, -2};
+constexpr T far_apart[kernels::separation_size] = {4, 0, 0, -2};
 
 }  // namespace
 
-template <class T>
-void Proposals<T>::resize(std::size_t n, std::int32_t idle) {
+void Proposals::resize(std::size_t n, std::int32_t idle) {
     count = n;
     const std::size_t size = kernels::padded(n);
     for (auto* column : {&a, &b}) resize_list(*column, size);
-    resize_list(separation, size);
     resize_list(stretch, size);
-    for (std::size_t k = n; k < size; ++k) {
-        a[k] = b[k] = idle;
-        separation[k] = far_apart<T>;
+    for (std::size_t k = n; k < size; ++k) a[k] = b[k] = idle;
+}
+
+template <class T>
+KeptContact<T> CandidateList<T>::kept_contact(std::size_t k, std::size_t proposal) const {
+    KeptContact<T> contact{static_cast<std::int32_t>(proposal), {}};
+    for (std::size_t c = 0; c < kernels::history_size; ++c)
+        contact.shear[c] = history[kernels::in_block(k, c, kernels::history_size)];
+    return contact;
+}
+
+template <class T>
+void CandidateList<T>::keep(const Proposals& proposals, std::vector<KeptContact<T>>& kept) const {
+    // Candidates of a stretch stand in the order of their proposals.
+    std::array<std::size_t, kernels::stretches + 1> next = begin;
+    for (std::size_t p = 0; p < proposals.count; ++p) {
+        const std::size_t s = proposals.stretch[p], k = next[s]++;
+        if (s < kernels::stretches && touches(k)) kept.push_back(kept_contact(k, p));
     }
 }
 
 template <class T>
-void CandidateList<T>::renumber(std::span<const std::int32_t> number) {
+void CandidateList<T>::keep_by_record(std::vector<KeptContact<T>>& kept) const {
     for (std::size_t k = 0; k < count(); ++k)
-        if (source[k] >= 0) source[k] = number[static_cast<std::size_t>(source[k])];
+        if (touches(k)) kept.push_back(kept_contact(k, static_cast<std::size_t>(first(k))));
+    std::sort(kept.begin(), kept.end(), [](const KeptContact<T>& x, const KeptContact<T>& y) {
+        return x.proposal < y.proposal;
+    });
 }
 
 template <class T>
-void CandidateList<T>::build(const Proposals<T>& proposals, std::int32_t idle,
-                             CarriedHistory<T>& carried) {
-    carried.touched.assign(proposals.count, 0);
-    carried.history.assign(proposals.count, {});
-    for (std::size_t k = 0; k < count(); ++k) {
-        if (source[k] < 0) continue;
-        const auto p = static_cast<std::size_t>(source[k]);
-        carried.history[p] = history[k];
-        carried.touched[p] = touches(k);
-    }
+void CandidateList<T>::build(const Proposals& proposals, const Aligned<T>& separations,
+                             std::int32_t idle, std::span<const KeptContact<T>> kept) {
+    using kernels::history_size, kernels::in_block, kernels::separation_size;
     // Counting sort by stretch; no branches, which nobody could foresee. Those that are no
-    // candidates come last and are dropped.
+    // candidates come last and are dropped: they have room to be written to.
     std::array<std::size_t, kernels::stretches + 2> first{};
     for (std::size_t p = 0; p < proposals.count; ++p) ++first[proposals.stretch[p] + 1u];
     std::partial_sum(first.begin(), first.end(), first.begin());
     std::copy_n(first.begin(), begin.size(), begin.begin());
-    carried.source.resize(proposals.count);
-    for (std::size_t p = 0; p < proposals.count; ++p)
-        carried.source[first[proposals.stretch[p]]++] = static_cast<std::int32_t>(p);
-    resize_list(source, count());
-    std::copy_n(carried.source.begin(), count(), source.begin());
     // The last entry is always padding.
     const std::size_t size = kernels::padded(count() + 1);
     for (auto* column : {&a, &b}) resize_list(*column, size);
-    resize_list(separation, size);
-    resize_list(history, size);
+    resize_list(separation, separation_size * size);
+    resize_list(history, history_size * size);
+    std::fill(history.begin(), history.end(), T(0));
     touching.assign(size / kernels::most_lanes, 0);
-    for (std::size_t k = 0; k < count(); ++k) {
-        const auto p = static_cast<std::size_t>(source[k]);
-        a[k] = proposals.a[p];
-        b[k] = proposals.b[p];
-        separation[k] = proposals.separation[p];
+    auto contact = kept.begin();
+    for (std::size_t p = 0; p < proposals.count; ++p) {
+        const std::size_t stretch = proposals.stretch[p];
+        const std::size_t k = std::min(first[stretch]++, count());
+        a[k] = proposals.a[p] * kernels::record_stride<T>;
+        b[k] = proposals.b[p] * kernels::record_stride<T>;
+        for (std::size_t c = 0; c < separation_size; ++c)
+            separation[in_block(k, c, separation_size)] =
+                separations[in_block(p, c, separation_size)];
+        if (contact == kept.end() || static_cast<std::size_t>(contact->proposal) != p) continue;
         // Beyond the first stretch a pair is apart by now: what it carried is gone, and nobody
         // would look at it before it is in play.
-        const bool near = k < begin[1];
-        history[k] = near ? carried.history[p] : kernels::ContactHistory<T>{};
-        if (near && carried.touched[p] != 0) set_touching(k);
+        if (stretch == 0) {
+            for (std::size_t c = 0; c < history_size; ++c) shear(k, c) = contact->shear[c];
+            set_touching(k);
+        }
+        ++contact;
     }
     for (std::size_t k = count(); k < size; ++k) {
-        a[k] = b[k] = idle;
-        separation[k] = far_apart<T>;
-        history[k] = {};
+        a[k] = b[k] = idle * kernels::record_stride<T>;
+        for (std::size_t c = 0; c < separation_size; ++c)
+            separation[in_block(k, c, separation_size)] = far_apart<T>[c];
     }
 }
 
@@ -89,8 +101,6 @@ kernels::Candidates<T> CandidateList<T>::view(double used, Aligned<std::int32_t>
             scratch.data()};
 }
 
-template struct Proposals<float>;
-template struct Proposals<double>;
 template struct CandidateList<float>;
 template struct CandidateList<double>;
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/aligned.hpp"
+#include "core/particle_store.hpp"
 #include "kernels/vector/records.hpp"
 
 namespace grainfield::core {
@@ -20,10 +20,8 @@ inline std::uint8_t stretch_of(double used) {
 }
 
 /// Pairs that a candidate list is chosen from, in an order that lasts from one build to the next.
-template <class T>
 struct Proposals {
-    Aligned<std::int32_t> a, b;  ///< records
-    Aligned<kernels::BuiltSeparation<T>> separation;
+    Aligned<std::int32_t> a, b;     ///< records
     Aligned<std::uint8_t> stretch;  ///< kernels::stretches if it is no candidate
     std::size_t count = 0;          ///< without padding
 
@@ -31,21 +29,18 @@ struct Proposals {
     void resize(std::size_t n, std::int32_t idle);
 };
 
-/// Memory to build a list in: histories on their way from one list to the next, by proposal.
+/// A contact on its way from one list to the next.
 template <class T>
-struct CarriedHistory {
-    std::vector<kernels::ContactHistory<T>> history;
-    std::vector<std::uint8_t> touched;
-    std::vector<std::int32_t> source;  ///< of the new candidates
+struct KeptContact {
+    std::int32_t proposal;  ///< its place among the proposals
+    T shear[kernels::history_size];
 };
 
 template <class T>
 struct CandidateList {
-    Aligned<std::int32_t> a, b;
-    Aligned<kernels::BuiltSeparation<T>> separation;
-    Aligned<kernels::ContactHistory<T>> history;
+    Aligned<std::int32_t> a, b;      ///< records, times kernels::record_stride
+    Aligned<T> separation, history;  ///< in blocks
     Aligned<std::uint16_t> touching;
-    std::vector<std::int32_t> source;  ///< proposal that a candidate was made from; negative: gone
     std::array<std::size_t, kernels::stretches + 1> begin{};  ///< of each stretch, and the end
 
     std::size_t count() const { return begin.back(); }  ///< without padding
@@ -56,14 +51,35 @@ struct CandidateList {
         touching[k / kernels::most_lanes] |=
             static_cast<std::uint16_t>(1u << (k % kernels::most_lanes));
     }
-    /// Replaces the list by those proposals that are candidates. A contact that touched keeps its
-    /// history if its proposal is there again, in the first stretch; padding gets the record
-    /// `idle`. `carried` is memory to work in.
-    void build(const Proposals<T>& proposals, std::int32_t idle, CarriedHistory<T>& carried);
-    /// Gives proposals other numbers: that of k becomes number[k], negative if it is gone.
-    void renumber(std::span<const std::int32_t> number);
+    /// Records of a candidate.
+    std::int32_t first(std::size_t k) const { return a[k] / kernels::record_stride<T>; }
+    std::int32_t second(std::size_t k) const { return b[k] / kernels::record_stride<T>; }
+    /// Component of the shear force on the first body [N].
+    T& shear(std::size_t k, std::size_t component) {
+        return history[kernels::in_block(k, component, kernels::history_size)];
+    }
+    Vec3 shear(std::size_t k) const {
+        const auto at = [&](std::size_t c) {
+            return double{history[kernels::in_block(k, c, kernels::history_size)]};
+        };
+        return {at(0), at(1), at(2)};
+    }
+
+    /// Appends the contacts that touch, ascending by proposal; the list was made from `proposals`,
+    /// whose stretches are still those of that time.
+    void keep(const Proposals& proposals, std::vector<KeptContact<T>>& kept) const;
+    /// The same where a proposal's place is the number of its first record.
+    void keep_by_record(std::vector<KeptContact<T>>& kept) const;
+    /// Replaces the list by those proposals that are candidates; `separation` of each is in blocks.
+    /// Contacts in `kept` have their history there if they are in the first stretch; padding gets
+    /// the record `idle`.
+    void build(const Proposals& proposals, const Aligned<T>& separation, std::int32_t idle,
+               std::span<const KeptContact<T>> kept);
     /// The candidates that can touch while no more than `used` of any reserve is used up.
     kernels::Candidates<T> view(double used, Aligned<std::int32_t>& scratch);
+
+  private:
+    KeptContact<T> kept_contact(std::size_t k, std::size_t proposal) const;
 };
 
 }  // namespace grainfield::core

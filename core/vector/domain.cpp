@@ -1,7 +1,7 @@
 #include "core/vector/domain.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace grainfield::core {
 
@@ -15,28 +15,33 @@ std::int32_t Domain<T>::record(std::int32_t slot) const {
 
 namespace {
 
-/// Number that each neighbour of the domain will have among `pairs`; negative if it is not there.
+/// Gives kept contacts the places that their pairs have among `pairs`; drops those that are gone.
 template <class T>
-std::vector<std::int32_t> new_numbers(const Domain<T>& domain,
-                                      std::span<const kernels::Pair> pairs) {
-    const Proposals<T>& old = domain.neighbours;
-    std::vector<std::int32_t> number(old.count, -1);
+void renumber(std::vector<KeptContact<T>>& kept, const Domain<T>& domain,
+              std::span<const kernels::Pair> pairs) {
     auto at = pairs.begin();
-    for (std::size_t k = 0; k < old.count; ++k) {
-        const kernels::Pair key{domain.slot(old.a[k]), domain.slot(old.b[k])};
-        while (at != pairs.end() && *at < key) ++at;
-        if (at != pairs.end() && *at == key)
-            number[k] = static_cast<std::int32_t>(at - pairs.begin());
+    std::size_t left = 0;
+    for (const KeptContact<T>& contact : kept) {
+        const auto p = static_cast<std::size_t>(contact.proposal);
+        const kernels::Pair key{domain.slot(domain.neighbours.a[p]),
+                                domain.slot(domain.neighbours.b[p])};
+        at = std::lower_bound(at, pairs.end(), key);
+        if (at == pairs.end() || !(*at == key)) continue;
+        kept[left] = contact;
+        kept[left++].proposal = static_cast<std::int32_t>(at - pairs.begin());
     }
-    return number;
+    kept.resize(left);
 }
 
 }  // namespace
 
 template <class T>
-void set_neighbours(Domain<T>& domain, std::span<const kernels::Pair> pairs,
-                    const BuiltState& state) {
-    domain.pairs.renumber(new_numbers(domain, pairs));
+void set_neighbours(Domain<T>& domain, std::span<const kernels::Pair> pairs) {
+    if (!std::exchange(domain.neighbours_are_new, true)) {
+        domain.kept.clear();
+        domain.pairs.keep(domain.neighbours, domain.kept);
+    }
+    renumber(domain.kept, domain, pairs);
     auto& ghosts = domain.ghost_slots;
     ghosts.clear();
     for (const auto& [i, j] : pairs) {
@@ -48,26 +53,18 @@ void set_neighbours(Domain<T>& domain, std::span<const kernels::Pair> pairs,
     resize_list(domain.records, domain.ghost_begin() + ghosts.size() + 1);
     kernels::SphereRecord<T>& idle = domain.records.back();
     idle = {};
-    idle.radius = 1;
-    idle.stiffness = 1;
-    Proposals<T>& neighbours = domain.neighbours;
+    idle.radius = idle.compliance = 1;
+    Proposals& neighbours = domain.neighbours;
     neighbours.resize(pairs.size(), domain.idle());
-    const Vec3Column& x = state.position;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-        const auto [i, j] = pairs[k];
-        neighbours.a[k] = domain.record(i);
-        neighbours.b[k] = domain.record(j);
-        const Vec3 branch = x[j] - x[i];
-        kernels::BuiltSeparation<T>& s = neighbours.separation[k];
-        for (int a = 0; a < 3; ++a) s.x[a] = static_cast<T>(branch[a]);
-        s.gap = static_cast<T>(state.radius[i] + state.radius[j] - branch.norm());
+        neighbours.a[k] = domain.record(pairs[k].i);
+        neighbours.b[k] = domain.record(pairs[k].j);
     }
-    domain.neighbours_are_new = true;
 }
 
 template <class T>
 void exchange_neighbours(Domain<T>& domain, std::span<const std::int32_t> slots,
-                         std::span<const kernels::Pair> pairs, const BuiltState& state) {
+                         std::span<const kernels::Pair> pairs) {
     const auto renewed = [&](std::int32_t slot) {
         return std::binary_search(slots.begin(), slots.end(), slot);
     };
@@ -87,7 +84,46 @@ void exchange_neighbours(Domain<T>& domain, std::span<const std::int32_t> slots,
     }
     std::vector<kernels::Pair> all(kept.size() + added.size());
     std::merge(kept.begin(), kept.end(), added.begin(), added.end(), all.begin());
-    set_neighbours(domain, all, state);
+    set_neighbours(domain, all);
+}
+
+namespace {
+
+/// Where all spheres of a domain are, ghosts too; the record that is idle last.
+template <class T>
+void collect_places(const Domain<T>& domain, const BuiltState& state,
+                    Aligned<kernels::BuiltPlace>& places) {
+    places.resize(domain.records.size());
+    const auto set = [&](std::size_t record, std::size_t slot) {
+        const Vec3 x = state.position[slot];
+        places[record] = {
+            {x.x(), x.y(), x.z()}, state.radius[slot], double{state.reserve[slot]}, {}};
+    };
+    for (std::size_t k = 0; k < domain.own; ++k) set(k, domain.first + k);
+    std::size_t record = domain.ghost_begin();
+    for (const std::int32_t slot : domain.ghost_slots)
+        set(record++, static_cast<std::size_t>(slot));
+    places[record] = {{0, 0, 0}, 1, 1, {}};
+}
+
+}  // namespace
+
+template <class T>
+void build_pair_list(Domain<T>& domain, const BuiltState& state,
+                     const kernels::VectorKernels<T>& kernels, ListScratch<T>& scratch) {
+    Proposals& near = domain.neighbours;
+    std::vector<KeptContact<T>>& kept = scratch.kept;
+    kept.clear();
+    if (std::exchange(domain.neighbours_are_new, false))
+        kept = std::exchange(domain.kept, {});
+    else
+        domain.pairs.keep(near, kept);
+    collect_places(domain, state, scratch.places);
+    resize_list(scratch.separation, kernels::separation_size * near.a.size());
+    kernels.place_neighbours(scratch.places.data(),
+                             {near.a.size(), near.a.data(), near.b.data(),
+                              scratch.separation.data(), near.stretch.data()});
+    domain.pairs.build(near, scratch.separation, domain.idle(), kept);
 }
 
 template <class T>
@@ -100,15 +136,18 @@ void build_wall_lists(Domain<T>& domain, const BuiltState& state, std::span<cons
         const double offset = n.dot(walls[w].point);
         const Vec3 nearest = (n.array() < 0).select(domain.centres.upper, domain.centres.lower);
         if (offset - n.dot(nearest) < -(domain.largest_reach + state.wall_reserve)) continue;
-        Proposals<T>& near = scratch.near_wall;
+        Proposals& near = scratch.near_wall;
         near.resize(domain.own, domain.idle());
+        resize_list(scratch.separation, kernels::separation_size * near.a.size());
         bool any = false;
         for (std::size_t k = 0; k < domain.own; ++k) {
             const std::size_t slot = domain.first + k;
             const double gap = state.radius[slot] + offset - n.dot(state.position[slot]);
-            const double room = state.reserve[slot] + state.wall_reserve;
+            const double room = double{state.reserve[slot]} + state.wall_reserve;
             near.a[k] = near.b[k] = static_cast<std::int32_t>(k);
-            near.separation[k] = {{0, 0, 0}, static_cast<T>(gap)};
+            for (std::size_t c = 0; c < kernels::separation_size; ++c)
+                scratch.separation[kernels::in_block(k, c, kernels::separation_size)] =
+                    c == kernels::gap_component ? static_cast<T>(gap) : T(0);
             near.stretch[k] =
                 gap < -room ? std::uint8_t{kernels::stretches} : stretch_of(-gap / room);
             any |= gap >= -room;
@@ -116,21 +155,30 @@ void build_wall_lists(Domain<T>& domain, const BuiltState& state, std::span<cons
         if (!any) continue;
         const auto wall = static_cast<std::int32_t>(w);
         WallList<T> made{wall, {}};
+        std::vector<KeptContact<T>>& kept = scratch.kept;
+        kept.clear();
         for (WallList<T>& before : old)
-            if (before.wall == wall) made = std::move(before);
-        made.list.build(near, domain.idle(), scratch.carried);
+            if (before.wall == wall) {
+                made = std::move(before);
+                made.list.keep_by_record(kept);
+            }
+        made.list.build(near, scratch.separation, domain.idle(), kept);
         domain.walls.push_back(std::move(made));
     }
 }
 
 template struct Domain<float>;
 template struct Domain<double>;
-template void set_neighbours(Domain<float>&, std::span<const kernels::Pair>, const BuiltState&);
-template void set_neighbours(Domain<double>&, std::span<const kernels::Pair>, const BuiltState&);
+template void set_neighbours(Domain<float>&, std::span<const kernels::Pair>);
+template void set_neighbours(Domain<double>&, std::span<const kernels::Pair>);
 template void exchange_neighbours(Domain<float>&, std::span<const std::int32_t>,
-                                  std::span<const kernels::Pair>, const BuiltState&);
+                                  std::span<const kernels::Pair>);
 template void exchange_neighbours(Domain<double>&, std::span<const std::int32_t>,
-                                  std::span<const kernels::Pair>, const BuiltState&);
+                                  std::span<const kernels::Pair>);
+template void build_pair_list(Domain<float>&, const BuiltState&,
+                              const kernels::VectorKernels<float>&, ListScratch<float>&);
+template void build_pair_list(Domain<double>&, const BuiltState&,
+                              const kernels::VectorKernels<double>&, ListScratch<double>&);
 template void build_wall_lists(Domain<float>&, const BuiltState&, std::span<const Wall>,
                                ListScratch<float>&);
 template void build_wall_lists(Domain<double>&, const BuiltState&, std::span<const Wall>,

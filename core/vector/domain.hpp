@@ -29,12 +29,12 @@ struct Domain {
     // Records: own spheres, padding, ghosts, and one that is idle.
     Aligned<kernels::SphereRecord<T>> records;
     Aligned<kernels::SphereLoad<T>> loads;                     ///< as records
-    Aligned<kernels::BuiltPlace<T>> places;                    ///< own spheres and padding
+    Aligned<T> bodies;                                         ///< of own spheres: columns()
     std::vector<std::int32_t> ghost_slots;                     ///< ascending
     std::vector<const kernels::SphereRecord<T>*> ghost_homes;  ///< where ghosts are copied from
 
     /// All that can become candidates before the next search, ascending by slots.
-    Proposals<T> neighbours;
+    Proposals neighbours;
     CandidateList<T> pairs;
     std::vector<WallList<T>> walls;
 
@@ -42,12 +42,19 @@ struct Domain {
     kernels::PassResult pass;
     std::vector<kernels::WallLoad> wall_loads;  ///< one a wall of the scene
     kernels::MoveResult motion;
-    Box centres;                      ///< of its own spheres when the lists were built [m]
-    double largest_reach = 0;         ///< of its own spheres: radius and reserve [m]
-    double reach_per_reserve = 0;     ///< the largest (radius + reserve)/reserve [-]
-    bool neighbours_are_new = false;  ///< since the last list build
+    Box centres;                   ///< of its own spheres when the lists were built [m]
+    double largest_reach = 0;      ///< of its own spheres: radius and reserve [m]
+    double reach_per_reserve = 0;  ///< the largest (radius + reserve)/reserve [-]
+    /// Contacts on their way to the next lists, where `neighbours` are newer than `pairs`.
+    std::vector<KeptContact<T>> kept;
+    bool neighbours_are_new = false;
 
     std::size_t ghost_begin() const { return kernels::padded(own); }
+    /// Column of `bodies`, in the order of kernels::BodyColumns.
+    T* body(std::size_t column) { return bodies.data() + column * ghost_begin(); }
+    kernels::BodyColumns<T> columns() {
+        return {body(0), body(1), body(2), body(3), body(4), body(5), body(6)};
+    }
     std::int32_t idle() const { return static_cast<std::int32_t>(records.size() - 1); }
     bool owns(std::int32_t slot) const {
         const auto s = static_cast<std::size_t>(slot);
@@ -66,30 +73,40 @@ struct Domain {
 struct BuiltState {
     Vec3Column position;      ///< centres [m]
     Column<double> radius;    ///< [m]
-    Column<double> reserve;   ///< what a sphere may move beyond the box's strain [m]
+    Column<float> reserve;    ///< what a sphere may move beyond the box's strain [m]
     double wall_reserve = 0;  ///< what a wall may deviate from the box's strain [m]
 };
+
+/// Columns of Domain::bodies.
+enum BodyColumn : std::size_t { inverse_mass, spin_response, mass, inverse_reserve, place_x };
+inline constexpr std::size_t body_columns = 7;
 
 /// Memory of a thread to build lists in.
 template <class T>
 struct ListScratch {
-    Proposals<T> near_wall;
-    CarriedHistory<T> carried;
+    Proposals near_wall;
+    Aligned<kernels::BuiltPlace> places;  ///< of a domain, as its records
+    Aligned<T> separation;                ///< of proposals, in blocks
+    std::vector<KeptContact<T>> kept;
 };
 
 /// Gives the domain new neighbours: `pairs` as slots, ascending by (i, j), i < j, at least one of
 /// the two its own. Contacts that touch keep their history. Ghosts' records are left to copy, and
 /// the lists have to be built.
 template <class T>
-void set_neighbours(Domain<T>& domain, std::span<const kernels::Pair> pairs,
-                    const BuiltState& state);
+void set_neighbours(Domain<T>& domain, std::span<const kernels::Pair> pairs);
 
 /// Replaces the pairs of the spheres `slots` (ascending) by those of `pairs`, which are theirs in
 /// all domains, in the order of set_neighbours(). A domain that has nothing to do with these
 /// spheres stays as it is.
 template <class T>
 void exchange_neighbours(Domain<T>& domain, std::span<const std::int32_t> slots,
-                         std::span<const kernels::Pair> pairs, const BuiltState& state);
+                         std::span<const kernels::Pair> pairs);
+
+/// Chooses the candidates among the neighbours; contacts that touch keep their history.
+template <class T>
+void build_pair_list(Domain<T>& domain, const BuiltState& state,
+                     const kernels::VectorKernels<T>& kernels, ListScratch<T>& scratch);
 
 /// Chooses the candidates of every wall; contacts that touch keep their history.
 template <class T>

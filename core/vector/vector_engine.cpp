@@ -46,7 +46,7 @@ VectorEngine<T>::VectorEngine(World& world, const kernels::VectorKernels<T>& ker
         domain.first = order_.first[d];
         domain.own = order_.first[d + 1] - order_.first[d];
         domain.records.resize(domain.ghost_begin() + 1);
-        domain.places.resize(domain.ghost_begin());
+        domain.bodies.resize(body_columns * domain.ghost_begin());
     }
     push();
 }
@@ -60,20 +60,19 @@ void VectorEngine<T>::push() {
             kernels::SphereRecord<T>& r = domain.records[k];
             r.radius = static_cast<T>(s.radius[i]);
             assign3(r.v, s.velocity[i]);
-            r.friction = static_cast<T>(world_.friction[i]);
+            r.compliance = static_cast<T>(1 / s.normal_stiffness[i]);
             assign3(r.w, s.spin[i]);
-            r.stiffness = static_cast<T>(s.normal_stiffness[i]);
-            r.inverse_mass = static_cast<T>(world_.inverse_inertial_mass[i]);
-            r.inverse_inertia = static_cast<T>(world_.inverse_inertia[i]);
-            r.mass = static_cast<T>(s.mass[i]);
+            r.friction = static_cast<T>(world_.friction[i]);
+            for (int a = 0; a < 3; ++a) r.radius_spin[a] = r.radius * r.w[a];
+            domain.body(inverse_mass)[k] = static_cast<T>(world_.inverse_inertial_mass[i]);
+            domain.body(spin_response)[k] = static_cast<T>(s.radius[i] * world_.inverse_inertia[i]);
+            domain.body(mass)[k] = static_cast<T>(s.mass[i]);
         }
     if (!world_.has_friction)
         for (Domain<T>& domain : domains_) {
-            std::fill(domain.pairs.history.begin(), domain.pairs.history.end(),
-                      kernels::ContactHistory<T>{});
+            std::fill(domain.pairs.history.begin(), domain.pairs.history.end(), T(0));
             for (WallList<T>& wall : domain.walls)
-                std::fill(wall.list.history.begin(), wall.list.history.end(),
-                          kernels::ContactHistory<T>{});
+                std::fill(wall.list.history.begin(), wall.list.history.end(), T(0));
         }
     suspicious_ = true;  // what was pushed has not been looked at
 }
@@ -87,6 +86,7 @@ void VectorEngine<T>::scale_velocities(double factor) {
             for (int a = 0; a < 3; ++a) {
                 domains_[d].records[k].v[a] *= f;
                 domains_[d].records[k].w[a] *= f;
+                domains_[d].records[k].radius_spin[a] *= f;
             }
 }
 
@@ -118,7 +118,8 @@ void VectorEngine<T>::pull_resultants() {
             const auto i = static_cast<std::size_t>(order_.sphere[domain.first + k]);
             world_.force.set(
                 i, vec3(domain.loads[k].force) + world_.spheres().mass[i] * world_.scene.gravity);
-            world_.moment.set(i, vec3(domain.loads[k].moment));
+            world_.moment.set(i,
+                              world_.spheres().radius[i] * vec3(domain.loads[k].moment_per_radius));
         }
     }
 }
@@ -129,10 +130,10 @@ double VectorEngine<T>::resultant_sum() {
     const Vec3 gravity = world_.scene.gravity;
 #pragma omp parallel for schedule(static) if (domains_.size() > 1)
     for (std::size_t d = 0; d < domains_.size(); ++d) {
-        const Domain<T>& domain = domains_[d];
+        Domain<T>& domain = domains_[d];
         for (std::size_t k = 0; k < domain.own; ++k)
             partial[d] +=
-                (vec3(domain.loads[k].force) + double{domain.records[k].mass} * gravity).norm();
+                (vec3(domain.loads[k].force) + double{domain.body(mass)[k]} * gravity).norm();
     }
     double sum = 0;
     for (double p : partial) sum += p;
@@ -170,7 +171,7 @@ void touch(const Domain<T>& domain) {
             static_cast<void>(*static_cast<const volatile char*>(begin + at));
     };
     read(domain.records);
-    read(std::span(domain.pairs.history.data(), domain.pairs.begin[1]));
+    read(std::span(domain.pairs.history.data(), kernels::history_size * domain.pairs.begin[1]));
 }
 
 template <class T>
@@ -198,8 +199,8 @@ void VectorEngine<T>::run(const Pass& pass) {
                 pass.forces && pass.motion ? scratch.loads : domain.loads;
             if (pass.forces) domain_forces(domain, pass.sums, loads, scratch);
             if (pass.motion)
-                domain.motion = move(domain.records.data(), loads.data(), domain.places.data(),
-                                     motion, domain.ghost_begin());
+                domain.motion = move(domain.records.data(), loads.data(), domain.columns(), motion,
+                                     domain.ghost_begin());
         }
     }
     collect(pass);
@@ -216,7 +217,7 @@ void VectorEngine<T>::domain_forces(Domain<T>& domain, bool sums,
                                     Aligned<kernels::SphereLoad<T>>& loads, Scratch<T>& scratch) {
     loads.assign(domain.records.size(), {});
     kernels::PairParameters<T> parameters = pair_parameters();
-    parameters.counted = static_cast<std::int32_t>(domain.own);
+    parameters.counted = static_cast<std::int32_t>(domain.own) * kernels::record_stride<T>;
     const std::size_t pairs =
         kernels::variant(kernels::ContactFeatures{world_.has_friction, world_.per_sphere, sums});
     domain.pass = kernels_.pairs[pairs](domain.records.data(),
@@ -261,8 +262,11 @@ void VectorEngine<T>::collect(const Pass& pass) {
 template <class T>
 kernels::PairParameters<T> VectorEngine<T>::pair_parameters() const {
     return {static_cast<T>(world_.scene.stiffness_ratio),
-            static_cast<T>(world_.uniform_stiffness()), static_cast<T>(world_.uniform_friction()),
-            static_cast<T>(world_.elapsed()), 0};
+            static_cast<T>(world_.uniform_stiffness()),
+            static_cast<T>(world_.uniform_friction()),
+            static_cast<T>(smallest_radius_),
+            static_cast<T>(world_.elapsed()),
+            0};
 }
 
 template <class T>

@@ -90,7 +90,6 @@ class VectorEngine : public Engine {
     double used_reserves() const;
     void rebuild();
     void fix_positions();
-    void forget_displacements();
     void build_lists();
     void name_lost_sphere(const Domain<T>& domain) const;
     ReserveRules reserve_rules() const;

@@ -87,7 +87,7 @@ HWY_INLINE Lane3<T> set3(const T* v) {
     return {set(v[0]), set(v[1]), set(v[2])};
 }
 
-/// Which of the indices that follow each other in memory are below a bound (of 2^24 at most).
+/// Which of the entries that follow each other in memory are below a bound (of 2^24 at most).
 template <class T>
 HWY_INLINE LaneMask<T> below(const std::int32_t* index, std::int32_t bound) {
     const Tag<T> d;
@@ -106,11 +106,26 @@ struct Lane4 {
     HWY_INLINE Lane3<T> xyz() const { return {x, y, z}; }
 };
 
-/// The blocks u, v, w of one record a lane.
+/// What two records of a lane have in common, component by component as in SphereRecord: b - a of
+/// u and v, a + b of all else; of the friction the smaller one where it was asked for.
 template <class T>
-struct RecordLanes {
-    Lane4<T> u, v, w;
+struct PairColumns {
+    std::array<Lane<T>, 16> column;
+    HWY_INLINE Lane3<T> xyz(std::size_t first) const {
+        return {column[first], column[first + 1], column[first + 2]};
+    }
 };
+// Places in it.
+inline constexpr std::size_t moved_columns = 0, reach_column = 3, velocity_columns = 4,
+                             compliance_column = 7, spin_columns = 8, friction_column = 11,
+                             rolled_columns = 12;
+/// Signs of the first record of a pair.
+template <class T>
+alignas(128) inline constexpr T pair_signs[16] = {-1, -1, -1, 1, -1, -1, -1, 1,
+                                                  1,  1,  1,  1, 1,  1,  1,  1};
+/// Signs of force and moment of the second of a pair, as in SphereLoad.
+template <class T>
+alignas(64) inline constexpr T load_signs[8] = {-1, -1, -1, -1, 1, 1, 1, 1};
 
 // Vectors are built from and taken apart into blocks of 128 bits: four floats or two doubles.
 #if HWY_TARGET == HWY_SCALAR
@@ -138,28 +153,52 @@ HWY_INLINE void add4(Lane4<T> v, const std::array<T*, 1>& at, std::size_t offset
 }
 
 template <class T>
-HWY_INLINE RecordLanes<T> load_records(const SphereRecord<T>* records, const std::int32_t* index) {
-    const std::array<const T*, 1> at{records[*index].u};
-    return {load4<T>(at, 0), load4<T>(at, 4), load4<T>(at, 8)};
+HWY_INLINE void transpose_square(Lane<T>*) {}  // of one
+
+template <class T, bool SmallerFriction>
+HWY_INLINE PairColumns<T> load_pairs(const SphereRecord<T>* records, const std::int32_t* a,
+                                     const std::int32_t* b) {
+    const Tag<T> d;
+    const T *ra = record_of(records, *a).u, *rb = record_of(records, *b).u;
+    PairColumns<T> pair;
+    for (std::size_t c = 0; c < 16; ++c)
+        pair.column[c] =
+            hn::MulAdd(hn::Load(d, ra + c), set(pair_signs<T>[c]), hn::Load(d, rb + c));
+    if constexpr (SmallerFriction)
+        pair.column[friction_column] =
+            hn::Min(hn::Load(d, ra + friction_column), hn::Load(d, rb + friction_column));
+    return pair;
+}
+/// Of these u and the radii alone.
+template <class T>
+HWY_INLINE Lane4<T> load_pair_places(const SphereRecord<T>* records, const std::int32_t* a,
+                                     const std::int32_t* b) {
+    const Lane4<T> pa = load4<T>({record_of(records, *a).u}, 0);
+    const Lane4<T> pb = load4<T>({record_of(records, *b).u}, 0);
+    return {hn::Sub(pb.x, pa.x), hn::Sub(pb.y, pa.y), hn::Sub(pb.z, pa.z), hn::Add(pb.w, pa.w)};
+}
+/// All components of rows that follow each other in memory.
+template <class T, class Row>
+HWY_INLINE std::array<Lane<T>, 16> load_columns(const Row* rows) {
+    const T* row = reinterpret_cast<const T*>(rows);
+    std::array<Lane<T>, 16> column;
+    for (std::size_t c = 0; c < sizeof(Row) / sizeof(T); ++c)
+        column[c] = hn::Load(Tag<T>(), row + c);
+    return column;
 }
 template <class T>
-HWY_INLINE Lane4<T> load_places(const SphereRecord<T>* records, const std::int32_t* index) {
-    return load4<T>({records[*index].u}, 0);
+HWY_INLINE void store_columns(const std::array<Lane<T>, 16>& column, SphereRecord<T>* rows) {
+    for (std::size_t c = 0; c < 16; ++c) hn::Store(column[c], Tag<T>(), rows->u + c);
 }
 template <class T>
-HWY_INLINE void add_loads(SphereLoad<T>* loads, const std::int32_t* index, Lane3<T> force,
-                          Lane3<T> moment) {
+HWY_INLINE void add_pair_loads(SphereLoad<T>* loads, const std::int32_t* a, const std::int32_t* b,
+                               Lane3<T> force, Lane3<T> moment) {
     const Lane<T> zero = hn::Zero(Tag<T>());
-    add4<T>({force.x, force.y, force.z, zero}, {loads[*index].force}, 0);
-    add4<T>({moment.x, moment.y, moment.z, zero}, {loads[*index].force}, 4);
-}
-template <class T>
-HWY_INLINE Lane4<T> load_rows(const T* rows) {
-    return load4<T>({rows}, 0);
-}
-template <class T>
-HWY_INLINE void store_rows(Lane4<T> v, T* rows) {
-    store4<T>(v, {rows}, 0);
+    T *la = load_of(loads, *a).force, *lb = load_of(loads, *b).force;
+    add4<T>({force.x, force.y, force.z, zero}, {la}, 0);
+    add4<T>({moment.x, moment.y, moment.z, zero}, {la}, 4);
+    add4<T>({hn::Neg(force.x), hn::Neg(force.y), hn::Neg(force.z), zero}, {lb}, 0);
+    add4<T>({moment.x, moment.y, moment.z, zero}, {lb}, 4);
 }
 
 #else
@@ -171,22 +210,18 @@ inline constexpr std::size_t block_lanes = 16 / sizeof(T);
 template <class T>
 inline constexpr std::size_t blocks = lanes<T> / block_lanes<T>;
 
-/// A vector of the blocks at at[first], at[first + block_lanes], ...
-template <class T>
-HWY_INLINE Lane<T> join(const std::array<const T*, lanes<T>>& at, std::size_t first,
-                        std::size_t offset) {
+/// A vector of the blocks of lanes first, first + block_lanes, ...; block(lane) gives one.
+template <class T, class Get>
+HWY_INLINE Lane<T> joined(std::size_t first, const Get& block) {
     constexpr std::size_t b = block_lanes<T>;
-    const Block<T> d;
-    const auto block = [&](std::size_t q)
-                           HWY_ATTR { return hn::LoadU(d, at[first + q * b] + offset); };
     if constexpr (blocks<T> == 1) {
-        return block(0);
+        return block(first);
     } else if constexpr (blocks<T> == 2) {
-        return hn::Combine(Tag<T>(), block(1), block(0));
+        return hn::Combine(Tag<T>(), block(first + b), block(first));
     } else {
         const hn::Half<Tag<T>> half;
-        return hn::Combine(Tag<T>(), hn::Combine(half, block(3), block(2)),
-                           hn::Combine(half, block(1), block(0)));
+        return hn::Combine(Tag<T>(), hn::Combine(half, block(first + 3 * b), block(first + 2 * b)),
+                           hn::Combine(half, block(first + b), block(first)));
     }
 }
 /// Calls use(q, block) for the blocks of a vector.
@@ -221,21 +256,29 @@ HWY_INLINE void transpose(Lane<float>& a, Lane<float>& b, Lane<float>& c, Lane<f
     d = hn::BitCast(f, hn::InterleaveUpper(g, ab1, cd1));
 }
 
-/// The four numbers at at[l] + offset of every lane l.
-template <class T>
-HWY_INLINE Lane4<T> load4(const std::array<const T*, lanes<T>>& at, std::size_t offset) {
+/// Four numbers of every lane; block(lane, offset) gives as many of them as fit in a block.
+template <class T, class Get>
+HWY_INLINE Lane4<T> gather4(const Get& block) {
+    const auto join = [&](std::size_t first, std::size_t offset) HWY_ATTR {
+        return joined<T>(first, [&](std::size_t lane) HWY_ATTR { return block(lane, offset); });
+    };
     if constexpr (sizeof(T) == 4) {
-        Lane4<T> v{join<T>(at, 0, offset), join<T>(at, 1, offset), join<T>(at, 2, offset),
-                   join<T>(at, 3, offset)};
+        Lane4<T> v{join(0, 0), join(1, 0), join(2, 0), join(3, 0)};
         transpose(v.x, v.y, v.z, v.w);
         return v;
     } else {
         const Tag<T> d;
-        const auto a = join<T>(at, 0, offset), b = join<T>(at, 1, offset);
-        const auto c = join<T>(at, 0, offset + 2), e = join<T>(at, 1, offset + 2);
+        const auto a = join(0, 0), b = join(1, 0), c = join(0, 2), e = join(1, 2);
         return {hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b),
                 hn::InterleaveLower(d, c, e), hn::InterleaveUpper(d, c, e)};
     }
+}
+/// The four numbers at at[l] + offset of every lane l.
+template <class T>
+HWY_INLINE Lane4<T> load4(const std::array<const T*, lanes<T>>& at, std::size_t offset) {
+    const Block<T> d;
+    return gather4<T>([&](std::size_t lane, std::size_t o)
+                          HWY_ATTR { return hn::LoadU(d, at[lane] + offset + o); });
 }
 
 /// Calls put(lane, offset, block) for every block of what store4 or add4 has to write.
@@ -274,36 +317,115 @@ HWY_INLINE void add4(Lane4<T> v, const std::array<T*, lanes<T>>& at, std::size_t
     });
 }
 
-/// Loads whole records: every index is read once.
+/// Transposes as many vectors as they have lanes.
 template <class T>
-HWY_INLINE RecordLanes<T> load_records(const SphereRecord<T>* records, const std::int32_t* index) {
-    std::array<const T*, lanes<T>> at;
-    for (std::size_t l = 0; l < lanes<T>; ++l) at[l] = records[index[l]].u;
-    if constexpr (sizeof(T) == 4) {
-        RecordLanes<T> r{
-            {join<T>(at, 0, 0), join<T>(at, 1, 0), join<T>(at, 2, 0), join<T>(at, 3, 0)},
-            {join<T>(at, 0, 4), join<T>(at, 1, 4), join<T>(at, 2, 4), join<T>(at, 3, 4)},
-            {join<T>(at, 0, 8), join<T>(at, 1, 8), join<T>(at, 2, 8), join<T>(at, 3, 8)}};
-        transpose(r.u.x, r.u.y, r.u.z, r.u.w);
-        transpose(r.v.x, r.v.y, r.v.z, r.v.w);
-        transpose(r.w.x, r.w.y, r.w.z, r.w.w);
-        return r;
-    } else {
-        return {load4<T>(at, 0), load4<T>(at, 4), load4<T>(at, 8)};
+HWY_INLINE void transpose_square(Lane<T>* v) {
+    const Tag<T> d;
+    constexpr std::size_t b = block_lanes<T>;
+    // Within blocks ...
+    for (std::size_t g = 0; g < lanes<T>; g += b) {
+        if constexpr (sizeof(T) == 4) {
+            transpose(v[g], v[g + 1], v[g + 2], v[g + 3]);
+        } else {
+            const auto lower = hn::InterleaveLower(d, v[g], v[g + 1]);
+            v[g + 1] = hn::InterleaveUpper(d, v[g], v[g + 1]);
+            v[g] = lower;
+        }
+    }
+    // ... and the blocks.
+    for (std::size_t c = 0; c < b; ++c) {
+        if constexpr (blocks<T> == 2) {
+            const auto lower = hn::ConcatLowerLower(d, v[b + c], v[c]);
+            v[b + c] = hn::ConcatUpperUpper(d, v[b + c], v[c]);
+            v[c] = lower;
+        } else if constexpr (blocks<T> == 4) {
+            const auto pick = [&](auto even, auto odd, Lane<T>& first, Lane<T>& second) HWY_ATTR {
+                first = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(odd), even);
+                second = hn::OddEvenBlocks(odd, hn::SwapAdjacentBlocks(even));
+            };
+            const auto low_even = hn::ConcatLowerLower(d, v[2 * b + c], v[c]);
+            const auto low_odd = hn::ConcatLowerLower(d, v[3 * b + c], v[b + c]);
+            const auto high_even = hn::ConcatUpperUpper(d, v[2 * b + c], v[c]);
+            const auto high_odd = hn::ConcatUpperUpper(d, v[3 * b + c], v[b + c]);
+            pick(low_even, low_odd, v[c], v[b + c]);
+            pick(high_even, high_odd, v[2 * b + c], v[3 * b + c]);
+        }
     }
 }
-/// Loads the first block of records.
+
+template <class T, bool SmallerFriction>
+HWY_INLINE PairColumns<T> load_pairs(const SphereRecord<T>* records, const std::int32_t* a,
+                                     const std::int32_t* b) {
+    constexpr std::size_t n = lanes<T>;
+    const Tag<T> d;
+    PairColumns<T> pair;
+    for (std::size_t part = 0; part < 16; part += n) {
+        const auto signs = hn::Load(d, pair_signs<T> + part);
+        Lane<T>* row = pair.column.data() + part;
+        for (std::size_t l = 0; l < n; ++l) {
+            const auto ra = hn::Load(d, record_of(records, a[l]).u + part);
+            const auto rb = hn::Load(d, record_of(records, b[l]).u + part);
+            row[l] = hn::MulAdd(ra, signs, rb);
+            if constexpr (SmallerFriction) {
+                if (part > friction_column || part + n <= friction_column) continue;
+                const auto here =
+                    hn::Eq(hn::Iota(d, static_cast<T>(part)), set<T>(T(friction_column)));
+                row[l] = hn::IfThenElse(here, hn::Min(ra, rb), row[l]);
+            }
+        }
+        transpose_square<T>(row);
+    }
+    return pair;
+}
+/// Of these u and the radii alone.
 template <class T>
-HWY_INLINE Lane4<T> load_places(const SphereRecord<T>* records, const std::int32_t* index) {
-    std::array<const T*, lanes<T>> at;
-    for (std::size_t l = 0; l < lanes<T>; ++l) at[l] = records[index[l]].u;
-    return load4<T>(at, 0);
+HWY_INLINE Lane4<T> load_pair_places(const SphereRecord<T>* records, const std::int32_t* a,
+                                     const std::int32_t* b) {
+    const Block<T> d;
+    return gather4<T>([&](std::size_t lane, std::size_t o) HWY_ATTR {
+        return hn::MulAdd(hn::Load(d, record_of(records, a[lane]).u + o),
+                          hn::Load(d, pair_signs<T> + o),
+                          hn::Load(d, record_of(records, b[lane]).u + o));
+    });
+}
+/// All components of rows that follow each other in memory.
+template <class T, class Row>
+HWY_INLINE std::array<Lane<T>, 16> load_columns(const Row* rows) {
+    constexpr std::size_t n = lanes<T>, size = sizeof(Row) / sizeof(T);
+    std::array<Lane<T>, 16> column;
+    if constexpr (n <= size) {
+        for (std::size_t part = 0; part < size; part += n) {
+            for (std::size_t l = 0; l < n; ++l)
+                column[part + l] = hn::Load(Tag<T>(), reinterpret_cast<const T*>(rows + l) + part);
+            transpose_square<T>(column.data() + part);
+        }
+    } else {
+        std::array<const T*, n> at;
+        for (std::size_t l = 0; l < n; ++l) at[l] = reinterpret_cast<const T*>(rows + l);
+        for (std::size_t part = 0; part < size; part += 4) {
+            const Lane4<T> four = load4<T>(at, part);
+            column[part] = four.x;
+            column[part + 1] = four.y;
+            column[part + 2] = four.z;
+            column[part + 3] = four.w;
+        }
+    }
+    return column;
+}
+template <class T>
+HWY_INLINE void store_columns(std::array<Lane<T>, 16> column, SphereRecord<T>* rows) {
+    constexpr std::size_t n = lanes<T>;
+    for (std::size_t part = 0; part < 16; part += n) {
+        transpose_square<T>(column.data() + part);
+        for (std::size_t l = 0; l < n; ++l) hn::Store(column[part + l], Tag<T>(), rows[l].u + part);
+    }
 }
 
-/// Adds force and moment to the loads of every lane, in a fixed order of the lanes.
+/// Adds force and moment of every lane's contact to the loads of its two spheres, the force with
+/// the other sign to the second; in the order of the lanes.
 template <class T>
-HWY_INLINE void add_loads(SphereLoad<T>* loads, const std::int32_t* index, Lane3<T> force,
-                          Lane3<T> moment) {
+HWY_INLINE void add_pair_loads(SphereLoad<T>* loads, const std::int32_t* a, const std::int32_t* b,
+                               Lane3<T> force, Lane3<T> moment) {
     const Lane<T> zero = hn::Zero(Tag<T>());
     Lane4<T> f{force.x, force.y, force.z, zero}, m{moment.x, moment.y, moment.z, zero};
     if constexpr (sizeof(T) == 4 && 1 < blocks<T>) {
@@ -311,9 +433,12 @@ HWY_INLINE void add_loads(SphereLoad<T>* loads, const std::int32_t* index, Lane3
         const hn::Full256<T> d;
         transpose(f.x, f.y, f.z, f.w);
         transpose(m.x, m.y, m.z, m.w);
+        const auto signs = hn::Load(d, load_signs<T>);
         const auto add = [&](std::size_t lane, auto sum) HWY_ATTR {
-            T* p = loads[index[lane]].force;
-            hn::Store(hn::Add(hn::Load(d, p), sum), d, p);
+            T* first = load_of(loads, a[lane]).force;
+            hn::Store(hn::Add(hn::Load(d, first), sum), d, first);
+            T* second = load_of(loads, b[lane]).force;
+            hn::Store(hn::MulAdd(sum, signs, hn::Load(d, second)), d, second);
         };
         const auto row = [&](std::size_t first, Lane<T> force_row, Lane<T> moment_row) HWY_ATTR {
             const auto even = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(moment_row), force_row);
@@ -333,23 +458,17 @@ HWY_INLINE void add_loads(SphereLoad<T>* loads, const std::int32_t* index, Lane3
         row(2, f.z, m.z);
         row(3, f.w, m.w);
     } else {
-        std::array<T*, lanes<T>> at;
-        for (std::size_t l = 0; l < lanes<T>; ++l) at[l] = loads[index[l]].force;
-        add4<T>(f, at, 0);
-        add4<T>(m, at, 4);
+        const Block<T> d;
+        const auto put = [&](std::size_t lane, std::size_t o, auto block) HWY_ATTR {
+            T* first = load_of(loads, a[lane]).force + o;
+            hn::StoreU(hn::Add(hn::LoadU(d, first), block), d, first);
+            T* second = load_of(loads, b[lane]).force + o;
+            const auto signs = hn::LoadU(d, load_signs<T> + o);
+            hn::StoreU(hn::MulAdd(block, signs, hn::LoadU(d, second)), d, second);
+        };
+        rows<T>(f, 0, put);
+        rows<T>(m, 4, put);
     }
-}
-
-/// Rows of four that follow each other in memory, one a lane.
-template <class T>
-HWY_INLINE Lane4<T> load_rows(const T* rows) {
-    Lane4<T> v;
-    hn::LoadInterleaved4(Tag<T>(), rows, v.x, v.y, v.z, v.w);
-    return v;
-}
-template <class T>
-HWY_INLINE void store_rows(Lane4<T> v, T* rows) {
-    hn::StoreInterleaved4(v.x, v.y, v.z, v.w, Tag<T>(), rows);
 }
 
 #endif

@@ -87,12 +87,47 @@ struct Approach {
     Lane<T> gap_before;  ///< at the last force evaluation; negative if closed then [m]
 };
 
+/// Of the turns of a pair in one step the largest for which small_motion() is as good as
+/// sphere_motion(): what it leaves out, the square of the turn, is lost in float anyway [rad].
+inline constexpr double small_turn = 3e-4;
+
+/// sphere_motion() where a pair turns by small angles only, as it does in nearly every step.
+template <class T>
+struct SmallMotion {
+    Approach<T> approach;
+    LaneMask<T> too_large;  ///< touching pairs for which it is not good enough
+
+    HWY_INLINE SmallMotion(const PairLanes<T>& pair, Lane3<T> velocity, Lane3<T> spins,
+                           Lane3<T> rolled, Lane3<T> shear, Lane<T> step) {
+        const auto half = set<T>(T(0.5));
+        const Lane3<T> n = pair.normal;
+        // With w = h v/|b|: n - n0 = P h v/|b0| and |b|/|b0| = 1 + w.n, up to the square of w.
+        const Lane3<T> w = scaled(hn::Mul(step, pair.inverse_distance), velocity);
+        const auto closing = dot(w, n);
+        const Lane3<T> swung = scaled(hn::Add(set<T>(1), closing), minus_scaled(w, closing, n));
+        // The frame rolls from n0 to n - u: (R - I) n0 = r x (n0 + n - u)/2, exact for a pair that
+        // turns as a rigid body. u follows in two rounds.
+        const Lane3<T> r = scaled(hn::Mul(step, pair.inverse_reach), rolled);
+        const Lane3<T> first = swung - cross(r, minus_scaled(n, half, swung));
+        const Lane3<T> u = plus_scaled(first, half, cross(r, first));
+        approach.motion.displacement = scaled(pair.reach, u);
+        // The shear force follows the normal by the smallest turn and spins about it.
+        const Lane3<T> spun = scaled(hn::Mul(half, step), spins);
+        const Lane3<T> carried = tangential(shear, n);
+        approach.motion.turned = carried + cross(scaled(dot(spun, n), n), carried);
+        approach.gap_before = hn::NegMulSub(closing, pair.distance, pair.overlap);
+        const auto turn2 = hn::Max(dot(w, w), hn::Max(dot(r, r), dot(spun, spun)));
+        too_large = hn::And(hn::Gt(turn2, set<T>(T(small_turn * small_turn))),
+                            hn::Gt(pair.overlap, hn::Zero(Tag<T>())));
+    }
+};
+
 /// sphere_motion() of the reference. With b0 = b - h v the branch of the last evaluation and P the
 /// projection on the tangent plane, P(n - n0) = h P v/|b0|: no difference of normals is needed.
+/// `spins` and `rolled` are the sums of both spheres' spins and of their radii times spins.
 template <class T>
-HWY_INLINE Approach<T> sphere_motion(const PairLanes<T>& pair, Lane<T> radius_a, Lane<T> radius_b,
-                                     Lane3<T> velocity, Lane3<T> spin_a, Lane3<T> spin_b,
-                                     Lane3<T> shear, Lane<T> step) {
+HWY_INLINE Approach<T> sphere_motion(const PairLanes<T>& pair, Lane3<T> velocity, Lane3<T> spins,
+                                     Lane3<T> rolled, Lane3<T> shear, Lane<T> step) {
     const Lane3<T> n = pair.normal;
     const Lane3<T> moved = scaled(step, velocity);
     const Lane3<T> branch0 = pair.branch - moved;
@@ -119,13 +154,12 @@ HWY_INLINE Approach<T> sphere_motion(const PairLanes<T>& pair, Lane<T> radius_a,
     result.gap_before = hn::Sub(hn::Neg(closing), pair.overlap);
 
     const Lane3<T> n0 = scaled(inverse_distance0, branch0);
-    const Lane3<T> rolling =
-        scaled(pair.inverse_reach, plus_scaled(scaled(radius_a, spin_a), radius_b, spin_b));
+    const Lane3<T> rolling = scaled(pair.inverse_reach, rolled);
     const Lane3<T> middle = n + n0, between = n - n0;
     // |n + n0|^2 = 4 - |n - n0|^2
     const auto inverse_middle2 = hn::Mul(
         set<T>(T(0.25)), inverse_of_one_minus<T>(hn::Mul(set<T>(T(0.25)), dot(between, between))));
-    const Lane3<T> beyond = scaled(set<T>(T(0.5)), spin_a + spin_b) - rolling;
+    const Lane3<T> beyond = scaled(set<T>(T(0.5)), spins) - rolling;
     const auto twist = hn::Mul(dot(beyond, middle), inverse_middle2);
     const Turn<T> frame(scaled(step, plus_scaled(rolling, twist, middle)));
     const Lane3<T> turned_by = frame.added_to(n0);
@@ -209,10 +243,10 @@ struct LaneSums {
     }
 };
 
-/// Eq. (4): K = r kA kB/(kA + kB).
+/// Eq. (4): K = r kA kB/(kA + kB) = r/(1/kA + 1/kB).
 template <class T>
-HWY_INLINE Lane<T> contact_stiffness(Lane<T> mean_radius, Lane<T> k_a, Lane<T> k_b) {
-    return hn::Div(hn::Mul(mean_radius, hn::Mul(k_a, k_b)), hn::Add(k_a, k_b));
+HWY_INLINE Lane<T> contact_stiffness(Lane<T> mean_radius, Lane<T> compliances) {
+    return hn::Div(mean_radius, compliances);
 }
 
 }  // namespace grainfield::kernels::HWY_NAMESPACE

@@ -1,4 +1,4 @@
-// Brings the separations of neighbours up to date and sorts out which of them are candidates.
+// Separations of neighbours, and which of them are candidates.
 
 #if defined(GRAINFIELD_LIST_KERNEL_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINFIELD_LIST_KERNEL_INL
@@ -12,31 +12,43 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainfield::kernels::HWY_NAMESPACE {
 
+/// In double whatever T: what is kept in T is the result alone.
 template <class T>
-void place_neighbours(const SphereRecord<T>* records, const Neighbours<T>& list) {
-    constexpr std::size_t n = lanes<T>;
-    const Tag<T> d;
-    const auto zero = hn::Zero(d), last = set<T>(T(stretches));
+void place_neighbours(const BuiltPlace* places, const Neighbours<T>& list) {
+    using D = double;
+    constexpr std::size_t n = lanes<D>;
+    const Tag<D> d;
+    const auto zero = hn::Zero(d), last = set<D>(stretches);
     // A little earlier than need be: round-off must not make a pair come too late.
-    const auto early = set<T>(T(1 - 1e-5)), rest = set<T>(T(stretches - 1));
-    const auto first = set<T>(T(first_stretch)), one = set<T>(1);
+    const auto early = set<D>(1 - 1e-5), rest = set<D>(stretches - 1);
+    const auto first = set<D>(first_stretch), one = set<D>(1);
+    // b - a of the centres, a + b of radii and reserves.
+    alignas(64) D signs[8] = {-1, -1, -1, 1, 1, 1, 1, 1};
     for (std::size_t k = 0; k < list.size; k += n) {
-        alignas(64) T rooms[n], used[n];
-        for (std::size_t l = 0; l < n; ++l)
-            rooms[l] = records[list.a[k + l]].reserve + records[list.b[k + l]].reserve;
-        const Lane4<T> ua = load_places<T>(records, list.a + k);
-        const Lane4<T> ub = load_places<T>(records, list.b + k);
-        const Lane4<T> built = load_rows<T>(list.separation[k].x);
-        const Lane3<T> moved = ub.xyz() - ua.xyz();
-        const Lane3<T> branch = built.xyz() + moved;
-        const auto before = hn::Sub(hn::Add(ua.w, ub.w), built.w);
-        const auto now = hn::Sqrt(dot(branch, branch));
-        const auto gap =
-            hn::Sub(built.w, hn::Div(growth2<T>(built.xyz(), moved), hn::Add(now, before)));
-        store_rows<T>({branch.x, branch.y, branch.z, gap}, list.separation[k].x);
+        std::array<Lane<D>, 8> column;
+        for (std::size_t part = 0; part < 8; part += n) {
+            for (std::size_t l = 0; l < n; ++l)
+                column[part + l] = hn::MulAdd(hn::Load(d, places[list.a[k + l]].x + part),
+                                              hn::Load(d, signs + part),
+                                              hn::Load(d, places[list.b[k + l]].x + part));
+            transpose_square<D>(column.data() + part);
+        }
+        const Lane3<D> branch{column[0], column[1], column[2]};
+        const auto gap = hn::Sub(column[3], hn::Sqrt(dot(branch, branch)));
+        const auto keep = [&](std::size_t component, Lane<D> value) HWY_ATTR {
+            alignas(64) D kept[n];
+            hn::Store(value, d, kept);
+            T* to = list.separation + in_block(k, component, separation_size);
+            for (std::size_t l = 0; l < n; ++l) to[l] = static_cast<T>(kept[l]);
+        };
+        keep(0, branch.x);
+        keep(1, branch.y);
+        keep(2, branch.z);
+        keep(gap_component, gap);
         // Rounded down; pairs that overlap already belong to the first stretch.
-        const auto share = hn::Mul(early, hn::Div(hn::Neg(gap), hn::Load(d, rooms)));
+        const auto share = hn::Mul(early, hn::Div(hn::Neg(gap), column[4]));
         const auto later = hn::Min(last, hn::MulAdd(rest, share, one));
+        alignas(64) D used[n];
         hn::Store(hn::IfThenElse(hn::Lt(share, first), zero, later), d, used);
         for (std::size_t l = 0; l < n; ++l)
             list.stretch[k + l] = static_cast<std::uint8_t>(used[l]);

@@ -54,9 +54,16 @@ struct Kick {
     }
 };
 
+/// A column of BodyColumns from sphere k on.
+template <class T>
+HWY_INLINE Lane<T> of_bodies(const T* column, std::size_t k) {
+    return hn::Load(Tag<T>(), column + k);
+}
+
 template <class T, bool Gravity, bool Damping, bool Rotation, bool Ledger>
 MoveResult move_records(SphereRecord<T>* records, const SphereLoad<T>* loads,
-                        const BuiltPlace<T>* built, const MoveParameters<T>& p, std::size_t count) {
+                        const BodyColumns<T>& bodies, const MoveParameters<T>& p,
+                        std::size_t count) {
     constexpr std::size_t n = lanes<T>;
     const Tag<T> d;
     MoveResult result;
@@ -68,24 +75,20 @@ MoveResult move_records(SphereRecord<T>* records, const SphereLoad<T>* loads,
     [[maybe_unused]] auto twice_work = zero;
     auto sane = hn::Eq(zero, zero);
     for (std::size_t k = 0; k < count; k += n) {
-        std::array<const T*, n> at, load_at, place_at;
-        std::array<T*, n> to;
-        for (std::size_t l = 0; l < n; ++l) {
-            at[l] = to[l] = records[k + l].u;
-            load_at[l] = loads[k + l].force;
-            place_at[l] = built[k + l].x;
-        }
-        Lane4<T> u = load4<T>(at, 0), v = load4<T>(at, 4), mass = load4<T>(at, 12);
-        Lane3<T> force = load4<T>(load_at, 0).xyz();
-        if constexpr (Gravity) force = plus_scaled(force, mass.z, gravity);
+        std::array<Lane<T>, 16> record = load_columns<T>(records + k);
+        const std::array<Lane<T>, 16> load = load_columns<T>(loads + k);
+        Lane3<T> u{record[0], record[1], record[2]}, v{record[4], record[5], record[6]};
+        const Lane<T> radius = record[3];
+        Lane3<T> force{load[0], load[1], load[2]};
+        if constexpr (Gravity) force = plus_scaled(force, of_bodies(bodies.mass, k), gravity);
         Lane3<T> damped{zero, zero, zero};
-        const Kick<T, Damping> kick(mass.x, set<T>(p.force_damping), p);
+        const Kick<T, Damping> kick(of_bodies(bodies.inverse_mass, k), set<T>(p.force_damping), p);
         const auto step_work = [&](Lane<T> taken, Lane<T> before, Lane<T> after) HWY_ATTR {
             // Half a step of the old velocity and half a step of the new.
             const auto way = hn::MulAdd(old_step, before, hn::Mul(step, after));
             twice_work = hn::MulAdd(taken, way, twice_work);
         };
-        const Lane3<T> v0 = v.xyz();
+        const Lane3<T> v0 = v;
         v.x = kick.apply(force.x, v.x, damped.x);
         v.y = kick.apply(force.y, v.y, damped.y);
         v.z = kick.apply(force.z, v.z, damped.z);
@@ -94,35 +97,45 @@ MoveResult move_records(SphereRecord<T>* records, const SphereLoad<T>* loads,
             step_work(damped.y, v0.y, v.y);
             step_work(damped.z, v0.z, v.z);
         }
-        u.x = hn::MulAdd(step, v.x, u.x);
-        u.y = hn::MulAdd(step, v.y, u.y);
-        u.z = hn::MulAdd(step, v.z, u.z);
-        store4<T>(u, to, 0);
-        store4<T>(v, to, 4);
+        u = plus_scaled(u, step, v);
+        record[0] = u.x;
+        record[1] = u.y;
+        record[2] = u.z;
+        record[4] = v.x;
+        record[5] = v.y;
+        record[6] = v.z;
         if constexpr (Rotation) {
-            Lane4<T> w = load4<T>(at, 8);
-            const Lane3<T> w0 = w.xyz(), moment = load4<T>(load_at, 4).xyz();
-            const Kick<T, Damping> spin(mass.y, set<T>(p.moment_damping), p);
-            w.x = spin.apply(moment.x, w.x, damped.x);
-            w.y = spin.apply(moment.y, w.y, damped.y);
-            w.z = spin.apply(moment.z, w.z, damped.z);
-            store4<T>(w, to, 8);
+            Lane3<T> w{record[8], record[9], record[10]};
+            const Lane3<T> w0{record[12], record[13], record[14]};  // times the radius
+            // Moments over the radius and what a spin makes of them: the same motion.
+            const Kick<T, Damping> spin(of_bodies(bodies.spin_response, k),
+                                        set<T>(p.moment_damping), p);
+            w.x = spin.apply(load[4], w.x, damped.x);
+            w.y = spin.apply(load[5], w.y, damped.y);
+            w.z = spin.apply(load[6], w.z, damped.z);
+            record[8] = w.x;
+            record[9] = w.y;
+            record[10] = w.z;
+            record[12] = hn::Mul(radius, w.x);
+            record[13] = hn::Mul(radius, w.y);
+            record[14] = hn::Mul(radius, w.z);
             if constexpr (Damping && Ledger) {
-                step_work(damped.x, w0.x, w.x);
-                step_work(damped.y, w0.y, w.y);
-                step_work(damped.z, w0.z, w.z);
+                step_work(damped.x, w0.x, record[12]);
+                step_work(damped.y, w0.y, record[13]);
+                step_work(damped.z, w0.z, record[14]);
             }
         }
+        store_columns<T>(record, records + k);
         // A step of less than half a radius; false for what is not a number.
-        const auto way2 = hn::Mul(hn::Mul(step, step), dot(v.xyz(), v.xyz()));
-        const auto half = hn::Mul(set<T>(T(0.5)), u.w);
+        const auto way2 = hn::Mul(hn::Mul(step, step), dot(v, v));
+        const auto half = hn::Mul(set<T>(T(0.5)), radius);
         sane = hn::And(sane, hn::Le(way2, hn::Mul(half, half)));
-        const Lane4<T> place = load4<T>(place_at, 0);
-        const Lane3<T> affine{hn::MulAdd(scale.x, place.x, shift.x),
-                              hn::MulAdd(scale.y, place.y, shift.y),
-                              hn::MulAdd(scale.z, place.z, shift.z)};
-        const Lane3<T> beyond = u.xyz() - affine;
-        used = hn::Max(used, hn::Mul(dot(beyond, beyond), hn::Mul(place.w, place.w)));
+        const Lane3<T> affine{hn::MulAdd(scale.x, of_bodies(bodies.x, k), shift.x),
+                              hn::MulAdd(scale.y, of_bodies(bodies.y, k), shift.y),
+                              hn::MulAdd(scale.z, of_bodies(bodies.z, k), shift.z)};
+        const Lane3<T> beyond = u - affine;
+        const auto share = of_bodies(bodies.inverse_reserve, k);
+        used = hn::Max(used, hn::Mul(dot(beyond, beyond), hn::Mul(share, share)));
     }
     if constexpr (Damping && Ledger) result.damping_work = 0.5 * sum_lanes<T>(twice_work);
     alignas(64) T lane[n];

@@ -28,17 +28,26 @@ struct PairCall {
 /// Batches that go through the stages of the law together. The law is a long chain of operations
 /// that wait for each other; a processor looks ahead further than one stage, but not further than
 /// the whole chain, so that stage by stage it works on several batches at once.
-inline constexpr std::size_t group = 4;
+inline constexpr std::size_t group = 2;
 
 /// Candidates are read in order, but faster than the processor foresees: batches to ask for early.
-inline constexpr std::size_t ahead = 3 * group;
+inline constexpr std::size_t ahead = 24;
 
-/// Asks memory for one group's worth of rows of four from `row` on; may lie beyond the end.
-template <class Row>
-HWY_INLINE void fetch_ahead(const Row* row) {
-    const char* at = reinterpret_cast<const char*>(row);
-    constexpr std::size_t bytes = group * HWY_LANES(std::uint8_t) * 4;  // a vector a component
+/// Asks memory for one group's worth of a column of `components` from candidate k on; may lie
+/// beyond the end.
+template <class T, class Column>
+HWY_INLINE void fetch_ahead(const Column* column, std::size_t k, std::size_t components,
+                            std::size_t batches = group) {
+    const char* at = reinterpret_cast<const char*>(column + k * components);
+    const std::size_t bytes = batches * lanes<T> * components * sizeof(Column);
     for (std::size_t line = 0; line < bytes; line += 64) __builtin_prefetch(at + line);
+}
+
+/// Components of a batch in a column of `components` in blocks.
+template <class T>
+HWY_INLINE Lane<T> load_component(const T* column, std::size_t k, std::size_t component,
+                                  std::size_t components) {
+    return hn::Load(Tag<T>(), column + in_block(k, component, components));
 }
 
 /// One batch between the stages.
@@ -46,28 +55,41 @@ template <class T>
 struct PairBatch {
     const std::int32_t *a, *b;  ///< records
     PairLanes<T> pair;
-    Lane<T> radius_a, radius_b, kn, friction;
-    Lane3<T> velocity, spin_a, spin_b;  ///< velocity of b relative to a
-    Lane3<T> shear;                     ///< before, then the new one
+    Lane<T> kn, friction;
+    Lane3<T> velocity, spins, rolled;  ///< of b relative to a; sums, as sphere_motion() wants them
+    Lane3<T> shear;                    ///< before, then the new one
     Approach<T> approach;
     Lane3<T> force;
     std::uint32_t touching;  ///< a bit a lane
 };
 
+/// True if an overlap of the batch exceeds half the smaller radius; called where one exceeds half
+/// the smallest radius of all.
+template <class T>
+HWY_NOINLINE bool too_deep_in(const SphereRecord<T>* records, const std::int32_t* a,
+                              const std::int32_t* b, Lane<T> depth) {
+    alignas(64) T lane[lanes<T>];
+    hn::Store(depth, Tag<T>(), lane);
+    bool deep = false;
+    for (std::size_t l = 0; l < lanes<T>; ++l)
+        deep |= lane[l] >
+                T(0.5) * std::min(record_of(records, a[l]).radius, record_of(records, b[l]).radius);
+    return deep;
+}
+
 /// First stage: loads the records; where the spheres are.
 template <class T, bool Friction, bool PerSphere>
 HWY_INLINE void approach_batch(const PairCall<T>& call, Lane4<T> separation, PairBatch<T>& batch,
-                               LaneMask<T>& too_deep) {
+                               bool& too_deep) {
     const Tag<T> d;
     const auto half = set<T>(T(0.5)), one = set<T>(1), zero = hn::Zero(d);
     const PairParameters<T>& p = call.parameters;
-    const RecordLanes<T> ra = load_records<T>(call.records, batch.a);
-    const RecordLanes<T> rb = load_records<T>(call.records, batch.b);
-    const Lane3<T> built = separation.xyz();
-    const Lane3<T> moved = rb.u.xyz() - ra.u.xyz();
+    const PairColumns<T> both_of = load_pairs < T,
+                         Friction && PerSphere > (call.records, batch.a, batch.b);
+    const Lane3<T> built = separation.xyz(), moved = both_of.xyz(moved_columns);
     PairLanes<T>& pair = batch.pair;
     pair.branch = built + moved;
-    pair.reach = hn::Add(ra.u.w, rb.u.w);
+    pair.reach = both_of.column[reach_column];
     pair.distance = hn::Sqrt(dot(pair.branch, pair.branch));
     const auto both = hn::Add(pair.distance, hn::Sub(pair.reach, separation.w));
     // One division for three reciprocals.
@@ -80,32 +102,61 @@ HWY_INLINE void approach_batch(const PairCall<T>& call, Lane4<T> separation, Pai
     batch.touching = bits_of<T>(hn::Gt(depth, zero));
     pair.overlap = hn::Max(zero, depth);
     pair.normal = scaled(pair.inverse_distance, pair.branch);
-    too_deep = hn::Or(too_deep, hn::Gt(depth, hn::Mul(half, hn::Min(ra.u.w, rb.u.w))));
-    batch.radius_a = ra.u.w;
-    batch.radius_b = rb.u.w;
+    if (!hn::AllFalse(d, hn::Gt(depth, set<T>(T(0.5) * p.smallest_radius))))
+        too_deep |= too_deep_in<T>(call.records, batch.a, batch.b, depth);
     // Eq. (4) with r the mean radius.
     const auto mean_radius = hn::Mul(half, pair.reach);
     if constexpr (PerSphere)
-        batch.kn = contact_stiffness<T>(mean_radius, ra.w.w, rb.w.w);
+        batch.kn = contact_stiffness<T>(mean_radius, both_of.column[compliance_column]);
     else
         batch.kn = hn::Mul(mean_radius, set<T>(T(0.5) * p.uniform_stiffness));
     if constexpr (Friction) {
-        batch.velocity = rb.v.xyz() - ra.v.xyz();
-        batch.spin_a = ra.w.xyz();
-        batch.spin_b = rb.w.xyz();
+        batch.velocity = both_of.xyz(velocity_columns);
+        batch.spins = both_of.xyz(spin_columns);
+        batch.rolled = both_of.xyz(rolled_columns);
         if constexpr (PerSphere)
-            batch.friction = hn::Min(ra.v.w, rb.v.w);
+            batch.friction = both_of.column[friction_column];
         else
             batch.friction = set<T>(p.uniform_friction);
     }
 }
 
+template <class T>
+HWY_INLINE Approach<T> motion_of(const PairBatch<T>& batch, Lane<T> step) {
+    return sphere_motion<T>(batch.pair, batch.velocity, batch.spins, batch.rolled, batch.shear,
+                            step);
+}
+
+/// motion_of() for the lanes that turn too much for the short way. Lane by lane, so that what a
+/// pair gets does not depend on the batch that it is in.
+template <class T>
+HWY_NOINLINE void correct_motion(PairBatch<T>& batch, LaneMask<T> lanes_meant, Lane<T> step) {
+    const Approach<T> right = motion_of<T>(batch, step);
+    const auto choose = [&](Lane<T> value, Lane<T>& in_place)
+                            HWY_ATTR { in_place = hn::IfThenElse(lanes_meant, value, in_place); };
+    const auto choose3 = [&](const Lane3<T>& value, Lane3<T>& in_place) HWY_ATTR {
+        choose(value.x, in_place.x);
+        choose(value.y, in_place.y);
+        choose(value.z, in_place.z);
+    };
+    choose3(right.motion.displacement, batch.approach.motion.displacement);
+    choose3(right.motion.turned, batch.approach.motion.turned);
+    choose(right.gap_before, batch.approach.gap_before);
+}
+
 /// Second stage: how the spheres moved past each other.
 template <class T>
 HWY_INLINE void motion_batch(const PairCall<T>& call, PairBatch<T>& batch) {
-    batch.approach =
-        sphere_motion<T>(batch.pair, batch.radius_a, batch.radius_b, batch.velocity, batch.spin_a,
-                         batch.spin_b, batch.shear, set<T>(call.parameters.step));
+    const auto step = set<T>(call.parameters.step);
+    if constexpr (sizeof(T) == 8) {
+        batch.approach = motion_of<T>(batch, step);
+    } else {
+        const SmallMotion<T> small(batch.pair, batch.velocity, batch.spins, batch.rolled,
+                                   batch.shear, step);
+        batch.approach = small.approach;
+        if (!hn::AllFalse(Tag<T>(), small.too_large))
+            correct_motion<T>(batch, small.too_large, step);
+    }
 }
 
 /// Third stage: forces. Of pairs that do not touch they are zero, and their history is gone.
@@ -139,9 +190,7 @@ HWY_INLINE void load_batch(const PairCall<T>& call, const PairBatch<T>& batch) {
     const auto zero = hn::Zero(Tag<T>());
     Lane3<T> moment{zero, zero, zero};
     if constexpr (Friction) moment = cross(batch.pair.normal, batch.shear);
-    add_loads<T>(call.loads, batch.a, batch.force, scaled(batch.radius_a, moment));
-    add_loads<T>(call.loads, batch.b, scaled(set<T>(-1), batch.force),
-                 scaled(batch.radius_b, moment));
+    add_pair_loads<T>(call.loads, batch.a, batch.b, batch.force, moment);
 }
 
 /// All stages but the first, of `count` batches.
@@ -156,25 +205,33 @@ HWY_INLINE void finish_batches(const PairCall<T>& call, PairBatch<T>* batches, s
 
 /// Candidates that are close: one batch after the other, history in place.
 template <class T, bool Friction, bool PerSphere, bool Sums>
-HWY_INLINE void close_forces(const PairCall<T>& call, LaneMask<T>& too_deep, LaneSums<T>& sums,
+HWY_INLINE void close_forces(const PairCall<T>& call, bool& too_deep, LaneSums<T>& sums,
                              PassResult& result) {
     constexpr std::size_t n = lanes<T>;
     const Candidates<T>& c = call.candidates;
-    const auto zero = hn::Zero(Tag<T>());
     for (std::size_t word = 0; word < c.close / most_lanes; ++word) c.touching[word] = 0;
     PairBatch<T> batches[group];
     for (std::size_t first = 0; first < c.close; first += group * n) {
         const std::size_t count = std::min(group, (c.close - first) / n);
-        fetch_ahead(c.separation + first + ahead * n);
-        if constexpr (Friction) fetch_ahead(c.history + first + ahead * n);
+        fetch_ahead<T>(c.a, first + ahead * n, 1);
+        fetch_ahead<T>(c.b, first + ahead * n, 1);
+        fetch_ahead<T>(c.separation, first + ahead * n, separation_size);
+        if constexpr (Friction) fetch_ahead<T>(c.history, first + ahead * n, history_size);
         for (std::size_t q = 0; q < count; ++q) {
             const std::size_t k = first + q * n;
+            const auto separation = [&](std::size_t component) HWY_ATTR {
+                return load_component(c.separation, k, component, separation_size);
+            };
             PairBatch<T>& batch = batches[q];
             batch.a = c.a + k;
             batch.b = c.b + k;
-            if constexpr (Friction) batch.shear = load_rows<T>(c.history[k].shear).xyz();
-            approach_batch<T, Friction, PerSphere>(call, load_rows<T>(c.separation[k].x), batch,
-                                                   too_deep);
+            if constexpr (Friction)
+                batch.shear = {load_component(c.history, k, 0, history_size),
+                               load_component(c.history, k, 1, history_size),
+                               load_component(c.history, k, 2, history_size)};
+            approach_batch<T, Friction, PerSphere>(
+                call, {separation(0), separation(1), separation(2), separation(3)}, batch,
+                too_deep);
             c.touching[k / most_lanes] = static_cast<std::uint16_t>(
                 c.touching[k / most_lanes] | batch.touching << (k % most_lanes));
             result.contacts += __builtin_popcount(batch.touching);
@@ -183,7 +240,10 @@ HWY_INLINE void close_forces(const PairCall<T>& call, LaneMask<T>& too_deep, Lan
         if constexpr (Friction)
             for (std::size_t q = 0; q < count; ++q) {
                 const Lane3<T>& shear = batches[q].shear;
-                store_rows<T>({shear.x, shear.y, shear.z, zero}, c.history[first + q * n].shear);
+                T* history = c.history + in_block(first + q * n, 0, history_size);
+                hn::Store(shear.x, Tag<T>(), history);
+                hn::Store(shear.y, Tag<T>(), history + most_lanes);
+                hn::Store(shear.z, Tag<T>(), history + 2 * most_lanes);
             }
     }
 }
@@ -197,15 +257,21 @@ HWY_INLINE std::size_t find_touching(const PairCall<T>& call) {
     std::size_t found = 0;
     for (std::size_t word = c.close / most_lanes; word < c.size / most_lanes; ++word) {
         std::uint32_t now = 0;
+        const std::size_t coming = word * most_lanes + ahead * most_lanes;
+        fetch_ahead<T>(c.a, coming, 1, most_lanes / n);
+        fetch_ahead<T>(c.b, coming, 1, most_lanes / n);
+        fetch_ahead<T>(c.separation, coming, separation_size, most_lanes / n);
         for (std::size_t part = 0; part < most_lanes; part += n) {
             const std::size_t k = word * most_lanes + part;
-            const Lane4<T> ua = load_places<T>(call.records, c.a + k);
-            const Lane4<T> ub = load_places<T>(call.records, c.b + k);
-            const Lane4<T> built = load_rows<T>(c.separation[k].x);
-            const auto reach = hn::Add(ua.w, ub.w);
+            const auto separation = [&](std::size_t component) HWY_ATTR {
+                return load_component(c.separation, k, component, separation_size);
+            };
+            const Lane4<T> place = load_pair_places<T>(call.records, c.a + k, c.b + k);
+            const auto gap = separation(gap_component);
             // Touching: |b| < reach, with |b0| = reach - gap.
-            const auto room = hn::Mul(built.w, hn::Sub(hn::Add(reach, reach), built.w));
-            now |= bits_of<T>(hn::Lt(growth2<T>(built.xyz(), ub.xyz() - ua.xyz()), room)) << part;
+            const auto room = hn::Mul(gap, hn::Sub(hn::Add(place.w, place.w), gap));
+            const Lane3<T> built{separation(0), separation(1), separation(2)};
+            now |= bits_of<T>(hn::Lt(growth2<T>(built, place.xyz()), room)) << part;
         }
         for (std::uint32_t left = now | c.touching[word]; left != 0; left &= left - 1)
             c.scratch[found++] = static_cast<std::int32_t>(word * most_lanes) + __builtin_ctz(left);
@@ -216,48 +282,60 @@ HWY_INLINE std::size_t find_touching(const PairCall<T>& call) {
 
 /// The candidates picked out by find_touching().
 template <class T, bool Friction, bool PerSphere, bool Sums>
-HWY_INLINE void picked_forces(const PairCall<T>& call, LaneMask<T>& too_deep, LaneSums<T>& sums,
+HWY_INLINE void picked_forces(const PairCall<T>& call, bool& too_deep, LaneSums<T>& sums,
                               PassResult& result) {
     constexpr std::size_t n = lanes<T>;
+    const Tag<T> d;
     const Candidates<T>& c = call.candidates;
     const std::size_t picked = find_touching<T>(call);
     result.contacts += static_cast<std::int64_t>(picked);
     for (std::size_t l = 0; l < n; ++l) c.scratch[picked + l] = static_cast<std::int32_t>(c.idle);
     for (std::size_t k = 0; k < picked; k += n) {
         std::array<std::int32_t, n> a, b;
-        std::array<const T*, n> separation, history;
-        std::array<T*, n> history_to;
+        alignas(64) T separation[separation_size][n], history[history_size][n];
         for (std::size_t l = 0; l < n; ++l) {
             const auto at = static_cast<std::size_t>(c.scratch[k + l]);
             a[l] = c.a[at];
             b[l] = c.b[at];
-            separation[l] = c.separation[at].x;
-            history[l] = history_to[l] = c.history[at].shear;
+            for (std::size_t s = 0; s < separation_size; ++s)
+                separation[s][l] = c.separation[in_block(at, s, separation_size)];
+            if constexpr (Friction)
+                for (std::size_t s = 0; s < history_size; ++s)
+                    history[s][l] = c.history[in_block(at, s, history_size)];
         }
         PairBatch<T> batch;
         batch.a = a.data();
         batch.b = b.data();
-        if constexpr (Friction) batch.shear = load4<T>(history, 0).xyz();
-        approach_batch<T, Friction, PerSphere>(call, load4<T>(separation, 0), batch, too_deep);
-        finish_batches<T, Friction, Sums>(call, &batch, 1, sums);
         if constexpr (Friction)
-            store4<T>({batch.shear.x, batch.shear.y, batch.shear.z, hn::Zero(Tag<T>())}, history_to,
-                      0);
+            batch.shear = {hn::Load(d, history[0]), hn::Load(d, history[1]),
+                           hn::Load(d, history[2])};
+        approach_batch<T, Friction, PerSphere>(
+            call,
+            {hn::Load(d, separation[0]), hn::Load(d, separation[1]), hn::Load(d, separation[2]),
+             hn::Load(d, separation[3])},
+            batch, too_deep);
+        finish_batches<T, Friction, Sums>(call, &batch, 1, sums);
+        if constexpr (Friction) {
+            hn::Store(batch.shear.x, d, history[0]);
+            hn::Store(batch.shear.y, d, history[1]);
+            hn::Store(batch.shear.z, d, history[2]);
+            for (std::size_t l = 0; l < n; ++l)
+                for (std::size_t s = 0; s < history_size; ++s)
+                    c.history[in_block(static_cast<std::size_t>(c.scratch[k + l]), s,
+                                       history_size)] = history[s][l];
+        }
     }
 }
 
 template <class T, bool Friction, bool PerSphere, bool Sums>
 PassResult pair_forces(const SphereRecord<T>* records, Candidates<T> c, SphereLoad<T>* loads,
                        const PairParameters<T>& p) {
-    const Tag<T> d;
     PassResult result;
     const PairCall<T> call{records, c, loads, p};
-    auto too_deep = hn::Lt(hn::Zero(d), hn::Zero(d));
     LaneSums<T> sums;
-    close_forces<T, Friction, PerSphere, Sums>(call, too_deep, sums, result);
-    picked_forces<T, Friction, PerSphere, Sums>(call, too_deep, sums, result);
+    close_forces<T, Friction, PerSphere, Sums>(call, result.too_deep, sums, result);
+    picked_forces<T, Friction, PerSphere, Sums>(call, result.too_deep, sums, result);
     if constexpr (Sums) result.sums = sums.total();
-    result.too_deep = !hn::AllFalse(d, too_deep);
     return result;
 }
 

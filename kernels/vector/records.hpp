@@ -13,18 +13,18 @@
 
 namespace grainfield::kernels {
 
+/// All that a contact needs. What it needs of two spheres are differences (u, v) and sums (the
+/// rest): these are formed from two whole records at once, and only the result is transposed.
 template <class T>
 struct alignas(16 * sizeof(T)) SphereRecord {
-    T u[3];             ///< displacement since the lists were built [m]
-    T radius;           ///< [m]
-    T v[3];             ///< mid-step velocity [m/s]
-    T friction;         ///< tan(phi) [-]
-    T w[3];             ///< mid-step spin [rad/s]
-    T stiffness;        ///< k_n [Pa]
-    T inverse_mass;     ///< of the motion; differs from 1/mass if scaled [1/kg]
-    T inverse_inertia;  ///< of the spin [1/(kg m2)]
-    T mass;             ///< gravitational [kg]
-    T reserve;          ///< what it may move beyond the box's strain before the next lists [m]
+    T u[3];            ///< displacement since the lists were built [m]
+    T radius;          ///< [m]
+    T v[3];            ///< mid-step velocity [m/s]
+    T compliance;      ///< 1/k_n [1/Pa]
+    T w[3];            ///< mid-step spin [rad/s]
+    T friction;        ///< tan(phi) [-]
+    T radius_spin[3];  ///< radius times spin [m/s]
+    T spare;           ///< unused [-]
 };
 static_assert(sizeof(SphereRecord<float>) == 64);
 static_assert(sizeof(SphereRecord<double>) == 128);
@@ -32,32 +32,46 @@ static_assert(sizeof(SphereRecord<double>) == 128);
 /// What the contacts of a sphere add up to.
 template <class T>
 struct alignas(8 * sizeof(T)) SphereLoad {
-    T force[3];   ///< resultant of the contacts [N]
-    T spare;      ///< unused [-]
-    T moment[3];  ///< [N m]
-    T spare_too;  ///< unused [-]
+    T force[3];              ///< resultant of the contacts [N]
+    T spare;                 ///< unused [-]
+    T moment_per_radius[3];  ///< [N]
+    T spare_too;             ///< unused [-]
 };
 static_assert(sizeof(SphereLoad<float>) == 32);
 
-/// Where a sphere was when the lists were built, for the check whether they still hold.
+/// Lists name a record by its number times this: an address is then a multiple that processors
+/// form as they load.
 template <class T>
-struct alignas(4 * sizeof(T)) BuiltPlace {
-    T x[3];             ///< centre, relative to the middle of the sample [m]
-    T inverse_reserve;  ///< 1 over what it may move beyond the box's strain [1/m]
+inline constexpr std::int32_t record_stride = sizeof(SphereRecord<T>) / 8;
+template <class T>
+const SphereRecord<T>& record_of(const SphereRecord<T>* records, std::int32_t entry) {
+    return *reinterpret_cast<const SphereRecord<T>*>(reinterpret_cast<const char*>(records) +
+                                                     std::size_t{8} *
+                                                         static_cast<std::uint32_t>(entry));
+}
+template <class T>
+SphereLoad<T>& load_of(SphereLoad<T>* loads, std::int32_t entry) {
+    static_assert(sizeof(SphereLoad<T>) == 4 * record_stride<T>);
+    return *reinterpret_cast<SphereLoad<T>*>(reinterpret_cast<char*>(loads) +
+                                             std::size_t{4} * static_cast<std::uint32_t>(entry));
+}
+
+/// What the motion of a domain's own spheres needs beside their records, a column each.
+template <class T>
+struct BodyColumns {
+    const T* inverse_mass;     ///< of the motion; differs from 1/mass if scaled [1/kg]
+    const T* spin_response;    ///< radius over moment of inertia [1/(kg m)]
+    const T* mass;             ///< gravitational [kg]
+    const T* inverse_reserve;  ///< 1 over what it may move beyond the box's strain [1/m]
+    const T *x, *y, *z;        ///< centre when the lists were built, from the sample's middle [m]
 };
 
-/// Separation of the two bodies of a candidate when the lists were built.
-template <class T>
-struct alignas(4 * sizeof(T)) BuiltSeparation {
-    T x[3];  ///< second minus first [m]; unused for walls
-    T gap;   ///< overlap: reach minus distance, negative if apart [m]
-};
-
-/// What a contact carries from step to step; zero where it does not touch.
-template <class T>
-struct alignas(4 * sizeof(T)) ContactHistory {
-    T shear[3];  ///< shear force on the first body [N]
-    T spare;     ///< unused [-]
+/// Where a sphere was when the lists were built: all that makes two of them neighbours.
+struct alignas(64) BuiltPlace {
+    double x[3];      ///< centre [m]
+    double radius;    ///< [m]
+    double reserve;   ///< what it may move beyond the box's strain [m]
+    double spare[3];  ///< unused [-]
 };
 
 /// Lanes of the widest vectors. Lists are padded to multiples of it with candidates that never
@@ -75,13 +89,25 @@ inline constexpr std::size_t padded(std::size_t n) {
 inline constexpr std::size_t stretches = 8;
 inline constexpr double first_stretch = 0.01;  ///< its length, as a share of the reserves [-]
 
+/// Candidates stand in blocks of most_lanes, component by component: x of all of a block, then y,
+/// z and so on. Place of a component of candidate k in a column of `components`:
+constexpr std::size_t in_block(std::size_t k, std::size_t component, std::size_t components) {
+    return k / most_lanes * most_lanes * components + component * most_lanes + k % most_lanes;
+}
+/// Separation of the two bodies when the lists were built: second minus first, x, y, z (unused for
+/// walls), and the gap: reach minus distance, negative if they were apart [m].
+inline constexpr std::size_t separation_size = 4, gap_component = 3;
+/// What a contact carries from step to step: the shear force on the first body; zero where it does
+/// not touch [N].
+inline constexpr std::size_t history_size = 3;
+
 /// Pairs of spheres that may become candidates, padded to multiples of most_lanes.
 template <class T>
 struct Neighbours {
     std::size_t size;
-    const std::int32_t *a, *b;  ///< records
-    BuiltSeparation<T>* separation;
-    std::uint8_t* stretch;  ///< `stretches` if they cannot meet before the next lists
+    const std::int32_t *a, *b;  ///< places
+    T* separation;              ///< in blocks
+    std::uint8_t* stretch;      ///< `stretches` if they cannot meet before the next lists
 };
 
 /// Candidate contacts, two spheres (or a sphere and a wall: b is unused) each. The kernels look at
@@ -92,11 +118,11 @@ template <class T>
 struct Candidates {
     std::size_t size, close;
     std::size_t idle;
-    const std::int32_t *a, *b;  ///< records
-    const BuiltSeparation<T>* separation;
-    ContactHistory<T>* history;
-    std::uint16_t* touching;  ///< a bit a candidate, most_lanes in a word
-    std::int32_t* scratch;    ///< size + most_lanes entries to write to
+    const std::int32_t *a, *b;  ///< records, times record_stride
+    const T* separation;        ///< in blocks
+    T* history;                 ///< in blocks
+    std::uint16_t* touching;    ///< a bit a candidate, most_lanes in a word
+    std::int32_t* scratch;      ///< size + most_lanes entries to write to
 };
 
 template <class T>
@@ -104,8 +130,9 @@ struct PairParameters {
     T stiffness_ratio;     ///< k_s/k_n of the spheres [-]
     T uniform_stiffness;   ///< k_n of all spheres where it is the same [Pa]
     T uniform_friction;    ///< tan(phi) of all spheres where it is the same [-]
+    T smallest_radius;     ///< of all spheres [m]
     T step;                ///< time since the last force evaluation; 0 at the first [s]
-    std::int32_t counted;  ///< contacts whose first record is below count in the sums
+    std::int32_t counted;  ///< contacts whose first entry is below count in the sums
 };
 
 /// A plane wall as one domain sees it.

@@ -24,10 +24,10 @@ struct VectorKernels {
     PassResult (*wall[8])(const SphereRecord<T>*, const WallPlane<T>&, Candidates<T>,
                           SphereLoad<T>* loads, const PairParameters<T>&, WallLoad&);
     /// Moves records 0 <= k < n (n padded) by one step.
-    MoveResult (*move[16])(SphereRecord<T>*, const SphereLoad<T>*, const BuiltPlace<T>*,
+    MoveResult (*move[16])(SphereRecord<T>*, const SphereLoad<T>*, const BodyColumns<T>&,
                            const MoveParameters<T>&, std::size_t n);
-    /// Separations as they are now, and the stretch of each pair by the reserves of its records.
-    void (*place_neighbours)(const SphereRecord<T>*, const Neighbours<T>&);
+    /// Separations and the stretch of each pair.
+    void (*place_neighbours)(const BuiltPlace*, const Neighbours<T>&);
 };
 
 /// Place of a kernel in the tables above.

@@ -30,9 +30,14 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
     const auto step = set<T>(p.step);
     const Lane3<T> normal = set3<T>(wall.normal), outward = scaled(set<T>(-1), normal);
     const Lane3<T> wall_velocity = set3<T>(wall.velocity);
-    const auto k_wall = set<T>(wall.stiffness), advance = set<T>(wall.advance);
-    const auto ks_wall = set<T>(wall.stiffness_ratio * wall.stiffness);
-    const bool springs = p.stiffness_ratio > 0 && wall.stiffness_ratio * wall.stiffness > 0;
+    const auto wall_compliance = set<T>(1 / wall.stiffness), advance = set<T>(wall.advance);
+    const T ks_wall = wall.stiffness_ratio * wall.stiffness;
+    const bool springs = p.stiffness_ratio > 0 && ks_wall > 0;
+    // Eq. (4) over the radius, where all spheres are the same.
+    const auto over_radius = [](double a, double b) { return static_cast<T>(a * b / (a + b)); };
+    const auto uniform_kn = set<T>(over_radius(p.uniform_stiffness, wall.stiffness));
+    const auto uniform_ks = set<T>(
+        springs ? over_radius(double{p.stiffness_ratio} * p.uniform_stiffness, ks_wall) : T(0));
     Lane3<T> sum{zero, zero, zero};
     auto stiffness_sum = zero;
     auto too_deep = hn::Lt(zero, zero);
@@ -41,17 +46,14 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
         std::uint32_t now = 0;
         for (std::size_t part = 0; part < most_lanes; part += n) {
             const std::size_t k = word * most_lanes + part;
-            std::array<const T*, n> at, built_at, history;
-            std::array<T*, n> load, history_to;
+            std::array<const T*, n> at;
+            std::array<T*, n> load;
             for (std::size_t l = 0; l < n; ++l) {
-                const auto i = c.a[k + l];
-                at[l] = records[i].u;
-                load[l] = loads[i].force;
-                built_at[l] = c.separation[k + l].x;
-                history[l] = history_to[l] = c.history[k + l].shear;
+                at[l] = record_of(records, c.a[k + l]).u;
+                load[l] = load_of(loads, c.a[k + l]).force;
             }
             const Lane4<T> u = load4<T>(at, 0);
-            const auto gap = load4<T>(built_at, 0).w;
+            const auto gap = load_component(c.separation, k, gap_component, separation_size);
             const auto reached = hn::Add(hn::Sub(gap, dot(normal, u.xyz())), advance);
             const auto touching = hn::Gt(reached, zero);
             const std::uint32_t bits = bits_of<T>(touching);
@@ -60,33 +62,40 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
             const auto overlap = hn::Max(reached, zero);
             too_deep = hn::Or(too_deep, hn::Gt(overlap, hn::Mul(half, u.w)));
             const auto w = load4<T>(at, 8), v = load4<T>(at, 4);
-            const auto k_sphere = PerSphere ? w.w : set<T>(p.uniform_stiffness);
-            const auto kn =
-                hn::IfThenElseZero(touching, contact_stiffness<T>(u.w, k_sphere, k_wall));
+            const auto kn = hn::IfThenElseZero(
+                touching, PerSphere ? contact_stiffness<T>(u.w, hn::Add(v.w, wall_compliance))
+                                    : hn::Mul(u.w, uniform_kn));
             const auto fn = hn::Mul(kn, overlap);
             Lane3<T> force = scaled(fn, normal);
             if constexpr (Friction) {
                 const Lane3<T> velocity = wall_velocity - v.xyz();
-                const Lane3<T> before = load4<T>(history, 0).xyz();
+                T* history = c.history + in_block(k, 0, history_size);
+                const Lane3<T> before{hn::Load(d, history), hn::Load(d, history + most_lanes),
+                                      hn::Load(d, history + 2 * most_lanes)};
                 const TangentialLanes<T> motion =
                     plane_motion<T>(outward, u.w, velocity, w.xyz(), before, step);
                 const auto gap_before = hn::MulSub(step, dot(velocity, normal), overlap);
-                const auto ks_sphere = hn::Mul(set<T>(p.stiffness_ratio), k_sphere);
-                const auto ks = springs ? contact_stiffness<T>(u.w, ks_sphere, ks_wall) : zero;
+                auto ks = zero;
+                if (springs)
+                    ks = PerSphere
+                             ? contact_stiffness<T>(u.w, hn::MulAdd(set<T>(1 / p.stiffness_ratio),
+                                                                    v.w, set<T>(1 / ks_wall)))
+                             : hn::Mul(u.w, uniform_ks);
                 const auto friction =
-                    hn::Min(PerSphere ? v.w : set<T>(p.uniform_friction), set<T>(wall.friction));
+                    hn::Min(PerSphere ? w.w : set<T>(p.uniform_friction), set<T>(wall.friction));
                 const ShearLanes<T> spring =
                     load_shear<T, Sums>(motion, gap_before, overlap, ks, hn::Mul(friction, fn));
                 // One that has just opened keeps its spring for the ledger, below.
-                store4<T>({hn::IfThenElse(touching, spring.shear.x, before.x),
-                           hn::IfThenElse(touching, spring.shear.y, before.y),
-                           hn::IfThenElse(touching, spring.shear.z, before.z), zero},
-                          history_to, 0);
+                hn::Store(hn::IfThenElse(touching, spring.shear.x, before.x), d, history);
+                hn::Store(hn::IfThenElse(touching, spring.shear.y, before.y), d,
+                          history + most_lanes);
+                hn::Store(hn::IfThenElse(touching, spring.shear.z, before.z), d,
+                          history + 2 * most_lanes);
                 const Lane3<T> shear{hn::IfThenElseZero(touching, spring.shear.x),
                                      hn::IfThenElseZero(touching, spring.shear.y),
                                      hn::IfThenElseZero(touching, spring.shear.z)};
                 force = force + shear;
-                const Lane3<T> moment = scaled(u.w, cross(outward, shear));
+                const Lane3<T> moment = cross(outward, shear);  // per radius
                 add4<T>({moment.x, moment.y, moment.z, zero}, load, 4);
                 if constexpr (Sums) sums.add_shear(touching, spring);
             }
@@ -99,13 +108,16 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
         for (std::uint32_t opened = c.touching[word] & ~now; opened != 0; opened &= opened - 1) {
             const std::size_t k =
                 word * most_lanes + static_cast<std::size_t>(__builtin_ctz(opened));
-            const auto& sphere = records[c.a[k]];
-            T* shear = c.history[k].shear;
+            const auto& sphere = record_of(records, c.a[k]);
             const double ks = wall_shear_stiffness<T>(
-                sphere.radius, PerSphere ? sphere.stiffness : p.uniform_stiffness, wall, p);
-            const double square = shear[0] * shear[0] + shear[1] * shear[1] + shear[2] * shear[2];
+                sphere.radius, PerSphere ? 1 / sphere.compliance : p.uniform_stiffness, wall, p);
+            double square = 0;
+            for (std::size_t s = 0; s < history_size; ++s) {
+                T& shear = c.history[in_block(k, s, history_size)];
+                square += shear * shear;
+                shear = 0;
+            }
             if (ks > 0) result.sums.friction_work += 0.5 * square / ks;
-            shear[0] = shear[1] = shear[2] = 0;
         }
         c.touching[word] = static_cast<std::uint16_t>(now);
     }

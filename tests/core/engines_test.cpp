@@ -133,39 +133,65 @@ TEST(SpatialOrder, TakesSpheresInOnePlaceAndNone) {
 TEST(CandidateList, KeepsHistoryThroughBuildsAndStretches) {
     // Six proposals, of records 0 and 1, 1 and 2, ...; those of stretch 8 are no candidates.
     const auto proposals = [](const std::array<std::uint8_t, 6>& stretch) {
-        Proposals<float> p;
+        Proposals p;
         p.resize(stretch.size(), 99);
         for (std::size_t k = 0; k < stretch.size(); ++k) {
             p.a[k] = static_cast<std::int32_t>(k);
             p.b[k] = p.a[k] + 1;
-            p.separation[k] = {{1, 0, 0}, -0.1f};
             p.stretch[k] = stretch[k];
         }
         return p;
     };
+    // Component c of the separation of proposal k is k + c/8.
+    Aligned<float> separation(kernels::separation_size * kernels::most_lanes);
+    for (std::size_t k = 0; k < 6; ++k)
+        for (std::size_t c = 0; c < kernels::separation_size; ++c)
+            separation[kernels::in_block(k, c, kernels::separation_size)] =
+                static_cast<float>(k) + static_cast<float>(c) / 8;
     CandidateList<float> list;
-    CarriedHistory<float> carried;
-    list.build(proposals({8, 8, 0, 1, 8, 0}), 99, carried);
-    ASSERT_EQ(list.count(), 3u);
-    EXPECT_EQ(list.source, (std::vector<std::int32_t>{2, 5, 3}));
-    EXPECT_EQ(list.a.back(), 99) << "no padding at the end";
-    for (std::size_t k : {1u, 2u}) {  // sources 5 and 3 touch
+    const auto sources = [&] {
+        std::vector<int> found;
+        for (std::size_t k = 0; k < list.count(); ++k) {
+            found.push_back(list.first(k));
+            EXPECT_EQ(list.second(k), list.first(k) + 1);
+            for (std::size_t c = 0; c < kernels::separation_size; ++c)
+                EXPECT_EQ(list.separation[kernels::in_block(k, c, kernels::separation_size)],
+                          static_cast<float>(list.first(k)) + static_cast<float>(c) / 8);
+        }
+        return found;
+    };
+    Proposals now = proposals({8, 8, 0, 1, 8, 0});
+    list.build(now, separation, 99, {});
+    EXPECT_EQ(sources(), (std::vector<int>{2, 5, 3}));
+    EXPECT_EQ(list.a.back(), 99 * kernels::record_stride<float>) << "no padding at the end";
+    for (std::size_t k : {1u, 2u}) {  // 5 and 3 touch
         list.set_touching(k);
-        list.history[k].shear[0] = static_cast<float>(list.source[k]);
+        list.shear(k, 0) = static_cast<float>(list.first(k));
     }
-    list.build(proposals({8, 0, 8, 0, 2, 7}), 99, carried);
-    EXPECT_EQ(list.source, (std::vector<std::int32_t>{1, 3, 4, 5}));
+    std::vector<KeptContact<float>> kept;
+    list.keep(now, kept);
+    ASSERT_EQ(kept.size(), 2u);
+    EXPECT_TRUE(kept[0].proposal == 3 && kept[1].proposal == 5);
+    EXPECT_TRUE(kept[0].shear[0] == 3.0f && kept[1].shear[0] == 5.0f);
+    now = proposals({8, 0, 8, 0, 2, 7});
+    list.build(now, separation, 99, kept);
+    EXPECT_EQ(sources(), (std::vector<int>{1, 3, 4, 5}));
     for (std::size_t k = 0; k < 4; ++k) {
         // 5 is in the last stretch: it has come apart.
-        const bool kept = list.source[k] == 3;
-        EXPECT_EQ(list.touches(k), kept) << k;
-        EXPECT_EQ(list.history[k].shear[0], kept ? static_cast<float>(list.source[k]) : 0.0f);
+        const bool there = list.first(k) == 3;
+        EXPECT_EQ(list.touches(k), there) << k;
+        EXPECT_EQ(list.shear(k, 0), there ? 3.0f : 0.0f);
     }
-    // Proposals numbered anew: 3 is 0 now, 5 is gone.
-    list.renumber(std::vector<std::int32_t>{5, 4, 3, 0, 2, -1});
-    list.build(proposals({0, 0, 8, 8, 8, 0}), 99, carried);
-    EXPECT_EQ(list.source, (std::vector<std::int32_t>{0, 1, 5}));
-    EXPECT_EQ(list.history[0].shear[0], 3.0f);
+    // Where a proposal is known by its first record, as with walls.
+    kept.clear();
+    list.keep_by_record(kept);
+    ASSERT_EQ(kept.size(), 1u);
+    EXPECT_EQ(kept[0].proposal, 3);
+    // Proposals numbered anew: 3 is 0 now.
+    kept[0].proposal = 0;
+    list.build(proposals({0, 0, 8, 8, 8, 0}), separation, 99, kept);
+    EXPECT_EQ(sources(), (std::vector<int>{0, 1, 5}));
+    EXPECT_EQ(list.shear(0, 0), 3.0f);
     EXPECT_TRUE(list.touches(0));
     EXPECT_FALSE(list.touches(1) || list.touches(2));
     Aligned<std::int32_t> scratch;

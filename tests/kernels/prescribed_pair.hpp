@@ -1,6 +1,7 @@
 #pragma once
 // A pair of spheres moved as told through the pair kernel: what the contact makes of it.
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <vector>
@@ -68,18 +69,24 @@ class VectorPair : public PairRunner {
           start_(s.position),
           records_(3),
           loads_(3),
-          a_(most_lanes, 2),
-          b_(most_lanes, 2),
-          separation_(most_lanes, {{4, 0, 0}, -2}),
-          history_(most_lanes),
+          a_(most_lanes, 2 * record_stride<T>),
+          b_(most_lanes, 2 * record_stride<T>),
+          separation_(most_lanes * separation_size),
+          history_(most_lanes * history_size),
           touching_(1),
           scratch_(2 * most_lanes) {
         const Vec3 branch = start_[1] - start_[0];
-        separation_[0].gap = static_cast<T>(s.radius[0] + s.radius[1] - branch.norm());
-        records_[2].radius = records_[2].stiffness = 1;
+        for (std::size_t k = 0; k < most_lanes; ++k) {
+            separation(k, 0) = 4;
+            separation(k, gap_component) = -2;
+        }
+        for (std::size_t c = 0; c < 3; ++c)
+            separation(0, c) = static_cast<T>(branch[static_cast<int>(c)]);
+        separation(0, gap_component) = static_cast<T>(s.radius[0] + s.radius[1] - branch.norm());
+        records_[2].radius = records_[2].compliance = 1;
         a_[0] = 0;
-        b_[0] = 1;
-        for (int k = 0; k < 3; ++k) separation_[0].x[k] = static_cast<T>(branch[k]);
+        b_[0] = record_stride<T>;
+        radius_ = std::min(s.radius[0], s.radius[1]);
     }
 
     void evaluate(PairState& s) override {
@@ -89,31 +96,43 @@ class VectorPair : public PairRunner {
                 records_[i].u[k] = static_cast<T>(s.position[i][k] - start_[i][k]);
                 records_[i].v[k] = static_cast<T>(s.velocity[i][k]);
                 records_[i].w[k] = static_cast<T>(s.spin[i][k]);
+                records_[i].radius_spin[k] = records_[i].radius * records_[i].w[k];
             }
-        for (int k = 0; k < 3; ++k) history_[0].shear[k] = static_cast<T>(s.shear[k]);
+        for (int k = 0; k < 3; ++k) shear(k) = static_cast<T>(s.shear[k]);
         loads_.assign(3, {});
-        const PairParameters<T> p{static_cast<T>(pair_stiffness_ratio), static_cast<T>(s.stiffness),
-                                  static_cast<T>(s.friction), static_cast<T>(s.step), 2};
+        const PairParameters<T> p{static_cast<T>(pair_stiffness_ratio),
+                                  static_cast<T>(s.stiffness),
+                                  static_cast<T>(s.friction),
+                                  static_cast<T>(radius_),
+                                  static_cast<T>(s.step),
+                                  2 * record_stride<T>};
         kernels_.pairs[variant(ContactFeatures{true, false, true})](
             records_.data(),
             {most_lanes, most_lanes, most_lanes - 1, a_.data(), b_.data(), separation_.data(),
              history_.data(), touching_.data(), scratch_.data()},
             loads_.data(), p);
         const auto vec = [](const T(&v)[3]) { return Vec3(v[0], v[1], v[2]); };
-        s.shear = vec(history_[0].shear);
+        s.shear = Vec3(shear(0), shear(1), shear(2));
         s.force = vec(loads_[0].force);
-        s.moment_per_radius = vec(loads_[0].moment) / s.radius[0];
+        s.moment_per_radius = vec(loads_[0].moment_per_radius);
         s.touching = (touching_[0] & 1u) != 0;
     }
 
   private:
+    T& separation(std::size_t k, std::size_t component) {
+        return separation_[in_block(k, component, separation_size)];
+    }
+    T& shear(int axis) {
+        return history_[in_block(0, static_cast<std::size_t>(axis), history_size)];
+    }
+
     const VectorKernels<T>& kernels_;
     std::array<Vec3, 2> start_;
+    double radius_ = 0;  // the smaller one [m]
     core::Aligned<SphereRecord<T>> records_;
     core::Aligned<SphereLoad<T>> loads_;
     core::Aligned<std::int32_t> a_, b_;
-    core::Aligned<BuiltSeparation<T>> separation_;
-    core::Aligned<ContactHistory<T>> history_;
+    core::Aligned<T> separation_, history_;
     core::Aligned<std::uint16_t> touching_;
     core::Aligned<std::int32_t> scratch_;
 };

@@ -74,6 +74,14 @@ std::pair<double, std::string> ended(const std::vector<CurvePoint>& curve) {
     return {-1, ""};
 }
 
+TEST(Curve, PeakBeforeAnyStrainIsAnError) {
+    std::vector<CurvePoint> curve(2);
+    curve[0].deviator_stress = 0.09;
+    curve[1].axial_strain = 1e-3;
+    curve[1].deviator_stress = -5;
+    EXPECT_THROW(evaluate_curve(curve, 4e5), SimulationError);
+}
+
 TEST(PeakWatch, FallOfFivePercent) {
     // 2 s/(1 + s^2) = 0.95 at s = (1 + sqrt(1 - 0.95^2))/0.95.
     const double s = (1 + std::sqrt(1 - 0.95 * 0.95)) / 0.95;

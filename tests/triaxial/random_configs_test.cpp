@@ -108,7 +108,9 @@ TEST_P(RandomConfigs, EndWithFiniteResultsOrSayWhyNot) {
         for (const double value :
              {r.results.peak_deviator_stress, r.results.E50, r.results.friction_angle, r.porosity,
               r.sheared_porosity, r.mean_step, r.lateral_rms_error, r.energy_closing_error})
-            EXPECT_TRUE(std::isfinite(value));
+            EXPECT_TRUE(std::isfinite(value))
+                << value << "; peak " << r.results.peak_deviator_stress << " Pa, E50 "
+                << r.results.E50 << " Pa, angle " << r.results.friction_angle;
         for (const CurvePoint& p : r.curve)
             EXPECT_TRUE(std::isfinite(p.deviator_stress) && std::isfinite(p.volumetric_strain));
         worst_closing = std::max(worst_closing, r.energy_closing_error);

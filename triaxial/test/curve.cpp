@@ -32,8 +32,13 @@ CurveResults evaluate_curve(const std::vector<CurvePoint>& curve, double confini
         if (point.deviator_stress >= half) {
             const double share =
                 (half - before.deviator_stress) / (point.deviator_stress - before.deviator_stress);
-            results.E50 =
-                half / (before.axial_strain + share * (point.axial_strain - before.axial_strain));
+            const double strain =
+                before.axial_strain + share * (point.axial_strain - before.axial_strain);
+            if (!(strain > 0))
+                throw SimulationError(
+                    "the deviator stress never rose above what it was before any strain: there "
+                    "is no E50");
+            results.E50 = half / strain;
             break;
         }
         before = point;
