@@ -94,11 +94,15 @@ kernels::Candidates<T> CandidateList<T>::view(double used, Aligned<std::int32_t>
     if (scratch.size() < a.size() + kernels::most_lanes)
         scratch.resize(a.size() + kernels::most_lanes);
     const std::size_t size = kernels::padded(begin[stretch_of(used) + 1u]);
-    return {size,           std::min(size, kernels::padded(begin[1])),
-            a.size() - 1,   a.data(),
-            b.data(),       separation.data(),
-            history.data(), touching.data(),
-            scratch.data()};
+    return {.size = size,
+            .close = std::min(size, kernels::padded(begin[1])),
+            .idle = a.size() - 1,
+            .a = a.data(),
+            .b = b.data(),
+            .separation = separation.data(),
+            .history = history.data(),
+            .touching = touching.data(),
+            .scratch = scratch.data()};
 }
 
 template struct CandidateList<float>;

@@ -159,9 +159,9 @@ void VectorEngine<T>::compute_and_move(double step) {
     run({.forces = true, .sums = world_.options.ledger, .motion = true, .step = step});
 }
 
-/// Reads what the next domain needs out of order, so that it is in this core's cache by then;
-/// columns read in order come by themselves. Loads, because prefetches are dropped where a page's
-/// address is not at hand.
+/// Reads what a domain needs out of order, so that it is in this core's cache; columns read in
+/// order come by themselves. Loads, because prefetches are dropped where a page's address is not at
+/// hand.
 template <class T>
 void touch(const Domain<T>& domain) {
     const auto read = [](const auto& column) {
@@ -190,14 +190,20 @@ void VectorEngine<T>::run(const Pass& pass) {
             for (std::size_t d = 0; d < domains_.size(); ++d) copy_ghosts(domains_[d]);
         }
         Scratch<T>& scratch = scratch_[static_cast<std::size_t>(omp_get_thread_num())];
+        const auto team = static_cast<std::size_t>(omp_get_num_threads());
+        std::size_t coming = domains_.size();  // whose records are on their way into the cache
 #pragma omp for schedule(dynamic, 1)
         for (std::size_t d = 0; d < domains_.size(); ++d) {
             Domain<T>& domain = domains_[d];
-            touch(domain);
+            if (d != coming) touch(domain);
+            // Threads mostly take turns.
+            coming = pass.forces ? d + team : domains_.size();
             // Where nobody looks at the loads they live in this core's cache only.
             Aligned<kernels::SphereLoad<T>>& loads =
                 pass.forces && pass.motion ? scratch.loads : domain.loads;
-            if (pass.forces) domain_forces(domain, pass.sums, loads, scratch);
+            if (pass.forces)
+                domain_forces(domain, coming < domains_.size() ? &domains_[coming] : nullptr,
+                              pass.sums, loads, scratch);
             if (pass.motion)
                 domain.motion = move(domain.records.data(), loads.data(), domain.columns(), motion,
                                      domain.ghost_begin());
@@ -209,20 +215,32 @@ void VectorEngine<T>::run(const Pass& pass) {
 template <class T>
 void VectorEngine<T>::copy_ghosts(Domain<T>& domain) {
     kernels::SphereRecord<T>* ghost = domain.records.data() + domain.ghost_begin();
-    for (const kernels::SphereRecord<T>* home : domain.ghost_homes) *ghost++ = *home;
+    const auto& homes = domain.ghost_homes;
+    constexpr std::size_t ahead = 16;  // they lie anywhere: memory is asked for several at a time
+    for (std::size_t g = 0; g < homes.size(); ++g) {
+        if (g + ahead < homes.size()) {
+            __builtin_prefetch(homes[g + ahead]);
+            __builtin_prefetch(ghost + g + ahead, 1);
+        }
+        ghost[g] = *homes[g];
+    }
 }
 
 template <class T>
-void VectorEngine<T>::domain_forces(Domain<T>& domain, bool sums,
+void VectorEngine<T>::domain_forces(Domain<T>& domain, const Domain<T>* coming, bool sums,
                                     Aligned<kernels::SphereLoad<T>>& loads, Scratch<T>& scratch) {
     loads.assign(domain.records.size(), {});
     kernels::PairParameters<T> parameters = pair_parameters();
     parameters.counted = static_cast<std::int32_t>(domain.own) * kernels::record_stride<T>;
     const std::size_t pairs =
         kernels::variant(kernels::ContactFeatures{world_.has_friction, world_.per_sphere, sums});
-    domain.pass = kernels_.pairs[pairs](domain.records.data(),
-                                        domain.pairs.view(most_used_, scratch.touching),
-                                        loads.data(), parameters);
+    kernels::Candidates<T> candidates = domain.pairs.view(most_used_, scratch.touching);
+    if (coming != nullptr) {
+        candidates.coming = reinterpret_cast<const char*>(coming->records.data());
+        candidates.coming_bytes = coming->records.size() * sizeof(kernels::SphereRecord<T>);
+    }
+    domain.pass =
+        kernels_.pairs[pairs](domain.records.data(), candidates, loads.data(), parameters);
     domain.wall_loads.assign(world_.planes.size(), {});
     const std::size_t variant = kernels::variant(
         kernels::ContactFeatures{world_.has_wall_friction, world_.per_sphere, sums});

@@ -66,8 +66,8 @@ class VectorEngine : public Engine {
     void run(const Pass& pass);
     void make_scratch() { scratch_.resize(static_cast<std::size_t>(omp_get_max_threads())); }
     void copy_ghosts(Domain<T>& domain);
-    void domain_forces(Domain<T>& domain, bool sums, Aligned<kernels::SphereLoad<T>>& loads,
-                       Scratch<T>& scratch);
+    void domain_forces(Domain<T>& domain, const Domain<T>* coming, bool sums,
+                       Aligned<kernels::SphereLoad<T>>& loads, Scratch<T>& scratch);
     void collect(const Pass& pass);
     kernels::PairParameters<T> pair_parameters() const;
     kernels::MoveParameters<T> move_parameters(double step) const;

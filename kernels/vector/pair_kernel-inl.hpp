@@ -211,7 +211,15 @@ HWY_INLINE void close_forces(const PairCall<T>& call, bool& too_deep, LaneSums<T
     const Candidates<T>& c = call.candidates;
     for (std::size_t word = 0; word < c.close / most_lanes; ++word) c.touching[word] = 0;
     PairBatch<T> batches[group];
+    constexpr std::size_t line = 64;  // [B]
+    const char *coming = c.coming, *const coming_end = c.coming + c.coming_bytes;
+    const std::size_t coming_share =
+        line * (c.coming_bytes * group * n / line / std::max<std::size_t>(c.close, 1) + 1);
     for (std::size_t first = 0; first < c.close; first += group * n) {
+        // Into the outer cache: the inner one is in use.
+        for (const char* end = std::min(coming + coming_share, coming_end); coming < end;
+             coming += line)
+            __builtin_prefetch(coming, 0, 2);
         const std::size_t count = std::min(group, (c.close - first) / n);
         fetch_ahead<T>(c.a, first + ahead * n, 1);
         fetch_ahead<T>(c.b, first + ahead * n, 1);

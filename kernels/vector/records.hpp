@@ -123,6 +123,9 @@ struct Candidates {
     T* history;                 ///< in blocks
     std::uint16_t* touching;    ///< a bit a candidate, most_lanes in a word
     std::int32_t* scratch;      ///< size + most_lanes entries to write to
+    /// What the caller will read next, to be asked of memory meanwhile; may be empty.
+    const char* coming = nullptr;
+    std::size_t coming_bytes = 0;  ///< [B]
 };
 
 template <class T>
