@@ -1,6 +1,12 @@
 #include "randomfield/halving.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <optional>
+#include <utility>
 
 namespace grainfield::randomfield {
 namespace {
@@ -20,8 +26,30 @@ std::vector<std::int32_t> kinds_of_places(std::int32_t n) {
     return places;
 }
 
-std::size_t row_id(const Surroundings& along1, const Surroundings& along2) {
-    return along1.id() * Surroundings::kinds + along2.id();
+// A term of any cell of a piece: weights of its numbers, where they have it.
+struct Term {
+    CellCount offset;
+    std::array<double, kernels::row_group> weights{};
+};
+
+using Key = std::array<std::int32_t, 3>;
+
+// The orders in which stencils have their cells and their details, which sums must keep.
+Key order_of_cell(const CellCount& o) {
+    return {o[2], o[1], o[0]};
+}
+Key order_of_detail(const CellCount& o) {
+    return {std::abs(o[2]), std::abs(o[1]), o[0] + o[1] + o[2]};
+}
+
+void add_term(std::vector<Term>& terms, Key (*order)(const CellCount&), const DetailTerm& term,
+              std::size_t lane) {
+    auto at = std::find_if(terms.begin(), terms.end(), [&](const Term& known) {
+        return order(known.offset) >= order(term.offset);
+    });
+    if (at == terms.end() || at->offset != term.offset)
+        at = terms.insert(at, Term{term.offset, {}});
+    at->weights[lane] = term.weight;
 }
 
 }  // namespace
@@ -31,121 +59,185 @@ Halving::Halving(const GridSpec& parents, const CellCount& children, std::size_t
     : parents_(parents.cells),
       children_(children),
       axis_(axis),
-      row_kind_(Surroundings::kinds * Surroundings::kinds, 0) {
-    const auto [n0, n1, n2] = parents_;
-    for (const bool odd : {false, true}) {
-        for (const std::int32_t first : kinds_of_places(n0)) {
-            const Surroundings around = surroundings_of(first, n0);
-            if (around.odd != odd) continue;
-            Segment segment{first, 0, around};
-            for (std::int32_t i = first; i < n0 && surroundings_of(i, n0).id() == around.id();
-                 i += 2) {
-                ++segment.count;
-            }
-            segments_.push_back(segment);
-        }
-    }
+      slab_axis_(parents.cells[2] >= parents.cells[1] ? 2 : 1) {
     const DetailCovariance covariance(parents.cell_size, parents_, axis, correlation);
-    struct RowKind {
-        Surroundings along1, along2;
+    std::vector<Surroundings> kinds[2];
+    for (const std::size_t d : {0u, 1u}) {
+        const std::int32_t n = parents_[d + 1];
+        for (const std::int32_t i : kinds_of_places(n)) kinds[d].push_back(surroundings_of(i, n));
+        for (std::int32_t i = 0; i < n; ++i) {
+            const std::size_t id = surroundings_of(i, n).id();
+            const auto known = std::find_if(kinds[d].begin(), kinds[d].end(),
+                                            [&](const Surroundings& s) { return s.id() == id; });
+            row_kinds_[d].push_back(static_cast<std::size_t>(known - kinds[d].begin()));
+        }
+    }
+    kinds_along2_ = kinds[1].size();
+    for (const Surroundings& along1 : kinds[0]) {
+        for (const Surroundings& along2 : kinds[1]) {
+            kinds_.push_back(make_kind(covariance, along1, along2));
+        }
+    }
+}
+
+Halving::RowKind Halving::make_kind(const DetailCovariance& covariance, const Surroundings& along1,
+                                    const Surroundings& along2) const {
+    const RowGrid grid(parents_);
+    const std::int32_t n = parents_[0];
+    std::array<std::optional<DetailStencil>, Surroundings::kinds> stencils;
+    const auto stencil_of = [&](std::int32_t i) -> const DetailStencil& {
+        const Surroundings along0 = surroundings_of(i, n);
+        std::optional<DetailStencil>& stencil = stencils[along0.id()];
+        if (!stencil) stencil = covariance.stencil({along0, along1, along2});
+        return *stencil;
     };
-    std::vector<RowKind> kinds;
-    for (const std::int32_t j : kinds_of_places(n1)) {
-        for (const std::int32_t k : kinds_of_places(n2)) {
-            kinds.push_back({surroundings_of(j, n1), surroundings_of(k, n2)});
-            row_kind_[row_id(kinds.back().along1, kinds.back().along2)] = kinds.size() - 1;
+    RowKind kind;
+    // Cells from `first` on, every second of them: groups that are all alike, or one group.
+    const auto add = [&](std::int32_t first, std::size_t cells, bool alike) {
+        kernels::RowPiece piece;
+        piece.at = grid.row.place(static_cast<std::size_t>(first));
+        piece.groups = kernels::RowLayout::filled(cells) / kernels::row_group;
+        piece.cells = cells;
+        piece.alike = alike;
+        piece.first_normal =
+            static_cast<std::size_t>(first / 2) + (first % 2 == 0 ? 0 : grid.row.even);
+        const std::size_t lanes = alike ? 1 : cells;
+        const std::size_t stride = alike ? 1 : kernels::row_group;
+        std::vector<Term> of_cells, of_details;
+        core::Aligned<double> weights(stride, 0.0);
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            const DetailStencil& stencil = stencil_of(first + 2 * static_cast<std::int32_t>(lane));
+            weights[lane] = stencil.noise;
+            for (const DetailTerm& term : stencil.cells)
+                add_term(of_cells, order_of_cell, term, lane);
+            for (const DetailTerm& term : stencil.details)
+                add_term(of_details, order_of_detail, term, lane);
         }
-    }
-    const auto placed = [&, nn0 = n0, nn1 = n1](const std::vector<DetailTerm>& terms,
-                                                std::int32_t first) {
-        std::vector<kernels::RowTerm> all;
-        all.reserve(terms.size());
-        for (const DetailTerm& t : terms) {
-            const std::ptrdiff_t row = t.offset[1] + std::ptrdiff_t{t.offset[2]} * nn1;
-            all.push_back({row * nn0 + place_in_row(first + t.offset[0], nn0), t.weight});
-        }
-        return all;
-    };
-    for (const RowKind& kind : kinds) {
-        std::vector<Weights> row;
-        for (const Segment& segment : segments_) {
-            const DetailStencil stencil =
-                covariance.stencil({segment.around, kind.along1, kind.along2});
-            row.push_back({placed(stencil.cells, segment.first),
-                           placed(stencil.details, segment.first), stencil.noise});
-        }
-        weights_.push_back(std::move(row));
-    }
-}
-
-void Halving::draw_row(std::int32_t j, std::int32_t k, const double* normals, const double* parents,
-                       double* details) const {
-    const auto [n0, n1, n2] = parents_;
-    const std::size_t kind = row_kind_[row_id(surroundings_of(j, n1), surroundings_of(k, n2))];
-    const std::size_t row = (static_cast<std::size_t>(k) * n1 + j) * n0;
-    for (std::size_t s = 0; s < segments_.size(); ++s) {
-        const Segment& segment = segments_[s];
-        const Weights& w = weights_[kind][s];
-        const std::size_t at = row + static_cast<std::size_t>(place_in_row(segment.first, n0));
-        // A row's own details are written and read here, but never the same parity.
-        kernels::sum_rows(segment.count, w.noise, normals + at, parents + row, w.cells,
-                          details + row, w.details, details + at);
-    }
-}
-
-void Halving::draw_details(std::span<const double> normals, std::span<const double> parents,
-                           std::span<double> details) const {
-    const std::int32_t n1 = parents_[1], n2 = parents_[2];
-#pragma omp parallel if (size() >= kParallelCells)
-    for (std::int32_t parity = 0; parity < 4; ++parity) {
-        const std::int32_t j0 = parity % 2, k0 = parity / 2;
-        const std::int32_t rows1 = (n1 - j0 + 1) / 2, rows2 = (n2 - k0 + 1) / 2;
-        // The rows of one parity read those of earlier ones, and write none that others read.
-#pragma omp for schedule(static)
-        for (std::int32_t r = 0; r < rows1 * rows2; ++r) {
-            draw_row(j0 + 2 * (r % rows1), k0 + 2 * (r / rows1), normals.data(), parents.data(),
-                     details.data());
-        }
-    }
-}
-
-void Halving::make_children(std::span<const double> parents, std::span<const double> details,
-                            std::span<double> children) const {
-    const auto [n0, n1, n2] = parents_;
-    const std::int32_t c0 = children_[0], c1 = children_[1];
-    const std::int32_t rows = n1 * n2;
-    const std::size_t axis = axis_;
-#pragma omp parallel for schedule(static) if (size() >= kParallelCells)
-    for (std::int32_t r = 0; r < rows; ++r) {
-        const double* p = parents.data() + static_cast<std::size_t>(r) * n0;
-        const double* e = details.data() + static_cast<std::size_t>(r) * n0;
-        const std::int32_t j = r % n1, k = r / n1;
-        const auto row = [&, cc0 = c0, cc1 = c1](std::int32_t jj, std::int32_t kk) {
-            return children.data() + (static_cast<std::size_t>(kk) * cc1 + jj) * cc0;
+        const auto place = [&](const std::vector<Term>& terms) {
+            std::vector<std::ptrdiff_t> places;
+            for (const Term& term : terms) {
+                const std::ptrdiff_t row =
+                    term.offset[1] + std::ptrdiff_t{term.offset[2]} * parents_[1];
+                // A cell of even index has those of odd index before it at its own place less one.
+                const std::int32_t i = first + term.offset[0];
+                const bool odd = i % 2 != 0;
+                const std::ptrdiff_t in_row =
+                    static_cast<std::ptrdiff_t>(odd ? grid.row.odd_at : grid.row.even_at) +
+                    (i - (odd ? 1 : 0)) / 2;
+                places.push_back(row * static_cast<std::ptrdiff_t>(grid.row.size) + in_row);
+                weights.insert(weights.end(), term.weights.begin(),
+                               term.weights.begin() + static_cast<std::ptrdiff_t>(stride));
+            }
+            return places;
         };
-        if (axis == 0) {
-            // Cell i's halves are cells 2 i and 2 i + 1: entry i of the even and of the odd ones.
-            double* even = row(j, k);
-            double* odd = even + n0;
-            const std::int32_t half = (n0 + 1) / 2;
-            for (std::int32_t t = 0; t < n0 / 2; ++t) {
-                even[2 * t] = p[t] + e[t];
-                even[2 * t + 1] = p[half + t] + e[half + t];
+        kind.places.push_back(place(of_cells));
+        piece.parents = kind.places.back();
+        kind.places.push_back(place(of_details));
+        piece.details = kind.places.back();
+        kind.weights.push_back(std::move(weights));
+        piece.weights = kind.weights.back().data();
+        kind.pieces.push_back(piece);
+    };
+    for (const std::int32_t parity : {0, 1}) {
+        const auto cells = static_cast<std::size_t>((n + 1 - parity) / 2);
+        const auto alike = [&](std::size_t group) {
+            const std::size_t end = (group + 1) * kernels::row_group;
+            if (end > cells) return false;
+            const auto cell = [&](std::size_t t) {
+                return surroundings_of(2 * static_cast<std::int32_t>(t) + parity, n).id();
+            };
+            for (std::size_t t = end - kernels::row_group; t < end; ++t) {
+                if (cell(t) != cell(cells / 2)) return false;
             }
-            if (n0 % 2 == 1) even[n0 - 1] = p[half - 1] + e[half - 1];
-            for (std::int32_t i = 0; i < c0 / 2; ++i) {
-                const std::int32_t at = place_in_row(i, n0);
-                odd[i] = p[at] - e[at];
-            }
-            continue;
+            return true;
+        };
+        const std::size_t groups = kernels::RowLayout::filled(cells) / kernels::row_group;
+        for (std::size_t g = 0; g < groups;) {
+            const std::size_t from = g;
+            while (g < groups && alike(g)) ++g;
+            const bool same = g > from;
+            if (!same) ++g;
+            const std::size_t t = from * kernels::row_group;
+            add(2 * static_cast<std::int32_t>(t) + parity,
+                std::min(cells, g * kernels::row_group) - t, same);
         }
-        const std::int32_t step1 = axis == 1 ? 2 : 1, step2 = axis == 2 ? 2 : 1;
-        double* front = row(step1 * j, step2 * k);
-        for (std::int32_t t = 0; t < n0; ++t) front[t] = p[t] + e[t];
-        const std::int32_t jj = axis == 1 ? 2 * j + 1 : j, kk = axis == 2 ? 2 * k + 1 : k;
-        if (jj >= c1 || kk >= children_[2]) continue;
-        double* back = row(jj, kk);
-        for (std::int32_t t = 0; t < n0; ++t) back[t] = p[t] - e[t];
+    }
+    return kind;
+}
+
+void Halving::make_rows(std::int32_t j, std::int32_t k, std::int32_t count, const double* normals,
+                        const double* parents, double* details, double* children) const {
+    const RowGrid grid(parents_), halves(children_);
+    const std::size_t at = grid.at(j, k), n = static_cast<std::size_t>(parents_[0]);
+    const bool along1 = slab_axis_ == 2;  // the next row is two further along axis 1, or axis 2
+    const std::size_t apart = grid.at(along1 ? 2 : 0, along1 ? 0 : 2);
+    kernels::RowsToDraw rows;
+    rows.n = n;
+    rows.count = static_cast<std::size_t>(count);
+    rows.normals = normals + at / grid.row.size * n;
+    rows.normals_apart = apart / grid.row.size * n;
+    rows.parents = parents + at;
+    rows.details = details + at;
+    rows.apart = apart;
+    const RowKind& kind = kinds_[kind_of(j, k)];
+    if (axis_ == 0) {
+        kernels::draw_rows(kind.pieces, rows);
+        for (std::int32_t r = 0; r < count; ++r) {
+            const std::size_t row = static_cast<std::size_t>(r) * apart;
+            kernels::halve_along_row(
+                n, static_cast<std::size_t>(children_[0]), rows.parents + row, rows.details + row,
+                children + halves.at(along1 ? j + 2 * r : j, along1 ? k : k + 2 * r));
+        }
+        return;
+    }
+    const std::int32_t step1 = axis_ == 1 ? 2 : 1, step2 = axis_ == 2 ? 2 : 1;
+    rows.children_apart = halves.at(along1 ? 2 * step1 : 0, along1 ? 0 : 2 * step2);
+    rows.front = children + halves.at(step1 * j, step2 * k);
+    // The last parent of an odd number of children has one only; its kind is that of no other.
+    const std::int32_t jj = step1 * j + step1 - 1, kk = step2 * k + step2 - 1;
+    if (jj < children_[1] && kk < children_[2]) rows.behind = children + halves.at(jj, kk);
+    kernels::draw_rows(kind.pieces, rows);
+}
+
+// All rows of one place along the slabs' axis, in the order that detail_stencil.hpp asks for.
+void Halving::make_slab(std::int32_t slab, const double* normals, const double* parents,
+                        double* details, double* children) const {
+    const std::int32_t rows = parents_[3 - slab_axis_];
+    const auto j = [&](std::int32_t r) { return slab_axis_ == 2 ? r : slab; };
+    const auto k = [&](std::int32_t r) { return slab_axis_ == 2 ? slab : r; };
+    for (const std::int32_t parity : {0, 1}) {
+        for (std::int32_t r = parity; r < rows;) {
+            std::int32_t alike = 1;
+            while (alike < 4 && r + 2 * alike < rows &&
+                   kind_of(j(r + 2 * alike), k(r + 2 * alike)) == kind_of(j(r), k(r))) {
+                ++alike;
+            }
+            if (alike == 3) alike = 2;
+            make_rows(j(r), k(r), alike, normals, parents, details, children);
+            r += 2 * alike;
+        }
+    }
+}
+
+void Halving::make_children(std::span<const double> normals, std::span<const double> parents,
+                            std::span<double> details, std::span<double> children) const {
+    const std::int32_t slabs = parents_[slab_axis_];
+    const std::int32_t even = (slabs + 1) / 2;
+    const auto make = [&](std::int32_t slab) {
+        make_slab(slab, normals.data(), parents.data(), details.data(), children.data());
+    };
+#pragma omp parallel if (size() >= kParallelCells)
+    {
+        // Of each thread some slabs of even index and the odd ones behind them. An odd one reads
+        // the details of both its neighbours; the next thread draws its first slab before all.
+        const std::int32_t threads = omp_get_num_threads(), thread = omp_get_thread_num();
+        const std::int32_t first = even * thread / threads, end = even * (thread + 1) / threads;
+        if (first < end) make(2 * first);
+#pragma omp barrier
+        for (std::int32_t e = first; e < end; ++e) {
+            if (e + 1 < end) make(2 * e + 2);
+            if (2 * e + 1 < slabs) make(2 * e + 1);
+        }
     }
 }
 

@@ -7,16 +7,30 @@
 #include <span>
 #include <vector>
 
-#include "kernels/vector/row_sums.hpp"
+#include "core/aligned.hpp"
+#include "kernels/vector/halving_rows.hpp"
 #include "randomfield/detail_stencil.hpp"
 #include "randomfield/grid.hpp"
 
 namespace grainfield::randomfield {
 
-/// Where cell i of a row of n cells stands: even cells first.
-inline std::int32_t place_in_row(std::int32_t i, std::int32_t n) {
-    return i % 2 == 0 ? i / 2 : (n + 1) / 2 + i / 2;
-}
+/// A grid of cells as the stages keep it: row (j, k) is the (j + k cells[1])-th.
+struct RowGrid {
+    explicit RowGrid(const CellCount& of_cells)
+        : cells(of_cells), row(static_cast<std::size_t>(of_cells[0])) {}
+
+    /// Where row (j, k) begins [numbers].
+    [[nodiscard]] std::size_t at(std::int32_t j, std::int32_t k) const {
+        return (static_cast<std::size_t>(k) * static_cast<std::size_t>(cells[1]) +
+                static_cast<std::size_t>(j)) *
+               row.size;
+    }
+    /// Of the whole grid [numbers].
+    [[nodiscard]] std::size_t size() const { return at(0, cells[2]); }
+
+    CellCount cells;
+    kernels::RowLayout row;
+};
 
 class Halving {
   public:
@@ -30,35 +44,38 @@ class Halving {
     /// Number of parents, of their details and of the normals they take [-].
     [[nodiscard]] std::size_t size() const { return GridSpec{parents_, {}}.size(); }
 
-    /// Draws the details of all parents; all spans of size() numbers, rows as above. The same
-    /// bits on any number of threads.
-    void draw_details(std::span<const double> normals, std::span<const double> parents,
-                      std::span<double> details) const;
-    /// P + E and P - E, those that the children's grid holds.
-    void make_children(std::span<const double> parents, std::span<const double> details,
-                       std::span<double> children) const;
+    /// Draws the details E of all parents from size() normals, row by row in order, and makes the
+    /// children, P + E and P - E. The other spans are of RowGrids: parents, as many details, and
+    /// children. The same bits on any number of threads.
+    void make_children(std::span<const double> normals, std::span<const double> parents,
+                       std::span<double> details, std::span<double> children) const;
 
   private:
-    // Cells of a row with the same surroundings along it, every second from the first on.
-    struct Segment {
-        std::int32_t first = 0;
-        std::size_t count = 0;
-        Surroundings around;
-    };
-    // A stencil with the places of its terms, from the start of the row.
-    struct Weights {
-        std::vector<kernels::RowTerm> cells, details;
-        double noise = 0.0;
+    // What is drawn alike in all rows with the same surroundings.
+    struct RowKind {
+        std::vector<kernels::RowPiece> pieces;  // of the even cells first
+        std::vector<std::vector<std::ptrdiff_t>> places;
+        std::vector<core::Aligned<double>> weights;
     };
 
-    void draw_row(std::int32_t j, std::int32_t k, const double* normals, const double* parents,
-                  double* details) const;
+    RowKind make_kind(const DetailCovariance& covariance, const Surroundings& along1,
+                      const Surroundings& along2) const;
+    [[nodiscard]] std::size_t kind_of(std::int32_t j, std::int32_t k) const {
+        return row_kinds_[0][static_cast<std::size_t>(j)] * kinds_along2_ +
+               row_kinds_[1][static_cast<std::size_t>(k)];
+    }
+    // `count` rows from (j, k) on, every second one across the slabs' axis, all of one kind.
+    void make_rows(std::int32_t j, std::int32_t k, std::int32_t count, const double* normals,
+                   const double* parents, double* details, double* children) const;
+    void make_slab(std::int32_t slab, const double* normals, const double* parents, double* details,
+                   double* children) const;
 
     CellCount parents_, children_;
     std::size_t axis_;
-    std::vector<Segment> segments_;              ///< even ones first
-    std::vector<std::size_t> row_kind_;          ///< by surroundings along axes 1 and 2
-    std::vector<std::vector<Weights>> weights_;  ///< [row kind][segment]
+    std::size_t slab_axis_;                  ///< 1 or 2, the longer one
+    std::vector<std::size_t> row_kinds_[2];  ///< of rows, by their place along axes 1 and 2
+    std::vector<RowKind> kinds_;             ///< [along 1][along 2]
+    std::size_t kinds_along2_ = 0;
 };
 
 }  // namespace grainfield::randomfield

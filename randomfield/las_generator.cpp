@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/aligned.hpp"
 #include "randomfield/memory_limit.hpp"
 
 namespace grainfield::randomfield {
@@ -19,8 +20,7 @@ struct LasGenerator::Plan {
         : correlation(model) {
         grid.validate();
         model.validate();
-        // Three buffers, normals and field; with what FieldGenerator holds beside them more.
-        require_memory(grid, 5.0 * static_cast<double>(grid.size()) * sizeof(double),
+        require_memory(grid, 4.0 * static_cast<double>(grid.size()) * sizeof(double),
                        "field.method = \"las\"");
         grids.push_back(grid);
         while (static_cast<std::int64_t>(grids.back().size()) >
@@ -42,7 +42,15 @@ struct LasGenerator::Plan {
         }
         std::reverse(grids.begin(), grids.end());
         std::reverse(halved.begin(), halved.end());
-        if (!halved.empty()) reorder_axes();
+        if (halved.empty()) return;
+        reorder_axes();
+        // Parents, details and children in rows, normals and field; with what FieldGenerator holds
+        // beside them more. The rows of flat grids that are short take more than their cells.
+        const double rows =
+            static_cast<double>(RowGrid(grids.back().cells).size()) +
+            2.0 * static_cast<double>(RowGrid(grids[halved.size() - 1].cells).size());
+        require_memory(grid, (rows + 2.0 * static_cast<double>(grid.size())) * sizeof(double),
+                       "field.method = \"las\"");
     }
 
   private:
@@ -108,78 +116,65 @@ CellCount LasGenerator::stage_cells(std::size_t stage) const {
     return of_field;
 }
 
-// Calls visit(cells, rows) for the grid of every stage.
+// Calls visit(grid, rows) for the grid of every stage.
 template <class Visit>
 void LasGenerator::run(std::span<const double> normals, const Visit& visit) const {
     // Kept from field to field: fresh memory of this size would cost as much as the field.
-    // Three buffers as large as the last grid, two of which take turns.
-    thread_local std::vector<double> buffers[3];
-    std::size_t largest = stage0_.normals();
-    for (const Halving& stage : stages_) {
-        largest = std::max(largest, GridSpec{stage.children(), {}}.size());
-    }
-    for (std::vector<double>& buffer : buffers) {
-        if (buffer.size() < largest) buffer.resize(largest);
-    }
-    std::span<double> rows = buffers[0], children = buffers[1];
-    const std::span<double> details = buffers[2];
-    const CellCount& first = stages_.front().parents();
-    const auto n0 = static_cast<std::size_t>(first[0]);
-    const std::span<double> plain = details.first(stage0_.normals());
+    thread_local core::Aligned<double> buffers[3];
+    const auto buffer = [&](std::size_t b, std::size_t size) {
+        if (buffers[b].size() < size) buffers[b].resize(size);
+        return std::span<double>(buffers[b]).first(size);
+    };
+    const RowGrid first(stages_.front().parents());
+    const std::span<double> plain = buffer(2, stage0_.normals());
     stage0_.apply(normals.first(plain.size()), plain);
+    const std::span<double> rows = buffer(0, first.size());
+    std::fill(rows.begin(), rows.end(), 0.0);
+    const auto n0 = static_cast<std::size_t>(first.cells[0]);
     for (std::size_t c = 0; c < plain.size(); ++c) {
-        const auto i = static_cast<std::int32_t>(c % n0);
-        rows[c - c % n0 + static_cast<std::size_t>(place_in_row(i, first[0]))] = plain[c];
+        rows[c / n0 * first.row.size + first.row.place(c % n0)] = plain[c];
     }
-    visit(first, rows.first(plain.size()));
+    visit(first, rows);
     std::size_t used = plain.size();
+    std::size_t from = 0;  // the buffers of parents and of children take turns
     for (const Halving& stage : stages_) {
-        stage.draw_details(normals.subspan(used, stage.size()), rows, details);
-        stage.make_children(rows, details, children);
+        const RowGrid parents(stage.parents()), children(stage.children());
+        const std::span<double> halves = buffer(1 - from, children.size());
+        stage.make_children(normals.subspan(used, stage.size()), buffer(from, parents.size()),
+                            buffer(2, parents.size()), halves);
         used += stage.size();
-        std::swap(rows, children);
-        visit(stage.children(), rows.first(GridSpec{stage.children(), {}}.size()));
+        from = 1 - from;
+        visit(children, halves);
     }
 }
 
 // From rows of the stages to the order of GridSpec::index().
-void LasGenerator::unpack(const CellCount& cells, std::span<const double> rows,
+void LasGenerator::unpack(const RowGrid& from, std::span<const double> rows,
                           std::span<double> field) const {
     std::array<std::size_t, 3> of_field{}, stride{};
-    for (std::size_t d = 0; d < 3; ++d) of_field[axis_[d]] = static_cast<std::size_t>(cells[d]);
+    for (std::size_t d = 0; d < 3; ++d) {
+        of_field[axis_[d]] = static_cast<std::size_t>(from.cells[d]);
+    }
     for (std::size_t d = 0; d < 3; ++d) {
         stride[d] = axis_[d] == 0 ? 1 : axis_[d] == 1 ? of_field[0] : of_field[0] * of_field[1];
     }
-    const auto n0 = static_cast<std::size_t>(cells[0]), n1 = static_cast<std::size_t>(cells[1]);
-    const std::size_t half = (n0 + 1) / 2;
+    const auto n0 = static_cast<std::size_t>(from.cells[0]);
+    // The axis along which the field is contiguous, and the third one, over which threads work.
+    const std::size_t contiguous = axis_[0] == 0 || axis_[1] == 0 ? 1 : 2, third = 3 - contiguous;
 #pragma omp parallel for schedule(static) if (field.size() >= 32768)
-    for (std::int32_t k = 0; k < cells[2]; ++k) {
-        const double* plane = rows.data() + static_cast<std::size_t>(k) * n0 * n1;
-        double* to = field.data() + static_cast<std::size_t>(k) * stride[2];
+    for (std::int32_t s = 0; s < from.cells[third]; ++s) {
+        const auto row_at = [&](std::int32_t r) {
+            return rows.data() + (contiguous == 1 ? from.at(r, s) : from.at(s, r));
+        };
+        double* to = field.data() + static_cast<std::size_t>(s) * stride[third];
         if (axis_[0] == 0) {
-            for (std::size_t j = 0; j < n1; ++j) {
-                const double* row = plane + j * n0;
-                double* line = to + j * stride[1];
-                for (std::size_t t = 0; t < n0 / 2; ++t) {
-                    line[2 * t] = row[t];
-                    line[2 * t + 1] = row[half + t];
-                }
-                if (n0 % 2 == 1) line[n0 - 1] = row[half - 1];
+            for (std::int32_t r = 0; r < from.cells[contiguous]; ++r) {
+                kernels::row_in_order(n0, row_at(r),
+                                      to + static_cast<std::size_t>(r) * stride[contiguous]);
             }
-            continue;
-        }
-        // A transposition, in tiles that stay in the first cache.
-        constexpr std::size_t tile = 16;
-        for (std::size_t i0 = 0; i0 < n0; i0 += tile) {
-            for (std::size_t j0 = 0; j0 < n1; j0 += tile) {
-                for (std::size_t i = i0; i < std::min(n0, i0 + tile); ++i) {
-                    const double* column = plane + (i % 2 == 0 ? i / 2 : half + i / 2);
-                    double* line = to + i * stride[0];
-                    for (std::size_t j = j0; j < std::min(n1, j0 + tile); ++j) {
-                        line[j * stride[1]] = column[j * n0];
-                    }
-                }
-            }
+        } else {
+            kernels::rows_to_columns(n0, of_field[0], from.at(contiguous == 1, contiguous == 2),
+                                     row_at(0), stride[0], to);
         }
     }
 }
@@ -191,8 +186,8 @@ std::vector<std::vector<double>> LasGenerator::apply_stages(std::span<const doub
         stage0_.apply(normals, fields.front());
         return fields;
     }
-    run(normals, [&](const CellCount& cells, std::span<const double> rows) {
-        fields.emplace_back(rows.size());
+    run(normals, [&](const RowGrid& cells, std::span<const double> rows) {
+        fields.emplace_back(GridSpec{cells.cells, {}}.size());
         unpack(cells, rows, fields.back());
     });
     return fields;
@@ -203,10 +198,8 @@ void LasGenerator::apply(std::span<const double> normals, std::span<double> fiel
         stage0_.apply(normals, field);
         return;
     }
-    run(normals, [&](const CellCount& cells, std::span<const double> rows) {
-        if (rows.size() == field.size() && cells == stages_.back().children()) {
-            unpack(cells, rows, field);
-        }
+    run(normals, [&](const RowGrid& cells, std::span<const double> rows) {
+        if (cells.cells == stages_.back().children()) unpack(cells, rows, field);
     });
 }
 

@@ -52,8 +52,7 @@ class LasGenerator final : public Generator {
     LasGenerator(const GridSpec& grid, const CorrelationModel& correlation, const Plan& plan);
     template <class Visit>
     void run(std::span<const double> normals, const Visit& visit) const;
-    void unpack(const CellCount& cells, std::span<const double> rows,
-                std::span<double> field) const;
+    void unpack(const RowGrid& from, std::span<const double> rows, std::span<double> field) const;
 
     std::array<std::size_t, 3> axis_;  ///< of the field, for each of the stages' axes
     CholeskyGenerator stage0_;

@@ -1,7 +1,5 @@
 #include "kernels/vector/row_sums.hpp"
 
-#include <algorithm>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/vector/row_sums.cpp"
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
@@ -18,44 +16,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class V>
 V plus_product(V sum, V a, V b) {
     return hn::Add(sum, hn::Mul(a, b));
-}
-
-void sum_rows(std::size_t count, double scale, const double* first, const double* a_base,
-              std::span<const RowTerm> a, const double* b_base, std::span<const RowTerm> b,
-              double* out) {
-    const hn::ScalableTag<double> d;
-    constexpr std::size_t n = HWY_LANES(double);
-    std::size_t t = 0;
-    for (; t + 2 * n <= count; t += 2 * n) {
-        auto sum0 = hn::Mul(hn::Set(d, scale), hn::LoadU(d, first + t));
-        auto sum1 = hn::Mul(hn::Set(d, scale), hn::LoadU(d, first + t + n));
-        const auto add = [&](const double* base, std::span<const RowTerm> terms) HWY_ATTR {
-            for (const RowTerm& term : terms) {
-                const auto w = hn::Set(d, term.weight);
-                const double* row = base + term.offset + t;
-                sum0 = plus_product(sum0, w, hn::LoadU(d, row));
-                sum1 = plus_product(sum1, w, hn::LoadU(d, row + n));
-            }
-        };
-        add(a_base, a);
-        add(b_base, b);
-        hn::StoreU(sum0, d, out + t);
-        hn::StoreU(sum1, d, out + t + n);
-    }
-    for (; t < count; t += n) {
-        // Lanes beyond the end are neither read nor written.
-        const auto here = hn::FirstN(d, std::min(n, count - t));
-        auto sum = hn::Mul(hn::Set(d, scale), hn::MaskedLoad(here, d, first + t));
-        const auto add = [&](const double* base, std::span<const RowTerm> terms) HWY_ATTR {
-            for (const RowTerm& term : terms) {
-                sum = plus_product(sum, hn::Set(d, term.weight),
-                                   hn::MaskedLoad(here, d, base + term.offset + t));
-            }
-        };
-        add(a_base, a);
-        add(b_base, b);
-        hn::BlendedStore(sum, here, d, out + t);
-    }
 }
 
 void multiply_lower(std::size_t size, const double* l, const double* x, double* product) {
@@ -134,15 +94,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace grainfield::kernels {
 
-HWY_EXPORT(sum_rows);
 HWY_EXPORT(multiply_lower);
 HWY_EXPORT(subtract_products);
-
-void sum_rows(std::size_t count, double scale, const double* first, const double* a_base,
-              std::span<const RowTerm> a, const double* b_base, std::span<const RowTerm> b,
-              double* out) {
-    HWY_DYNAMIC_DISPATCH(sum_rows)(count, scale, first, a_base, a, b_base, b, out);
-}
 
 void multiply_lower(std::size_t size, const double* l, const double* x, double* product) {
     HWY_DYNAMIC_DISPATCH(multiply_lower)(size, l, x, product);

@@ -4,21 +4,8 @@
 // same bits on every instruction set.
 
 #include <cstddef>
-#include <span>
 
 namespace grainfield::kernels {
-
-/// A row `offset` numbers from a base, and its weight.
-struct RowTerm {
-    std::ptrdiff_t offset;  ///< [numbers]
-    double weight;          ///< [-]
-};
-
-/// out[t] = scale first[t] + sum over a of weight_a a_base[offset_a + t] + the same over b,
-/// t < count. `out` overlaps none of what is read.
-void sum_rows(std::size_t count, double scale, const double* first, const double* a_base,
-              std::span<const RowTerm> a, const double* b_base, std::span<const RowTerm> b,
-              double* out);
 
 /// product[i] = sum over j <= i of l[i + j size] x[j], in ascending j: a lower triangular matrix,
 /// column by column, times a vector of `size`.

@@ -146,6 +146,7 @@ core::Simulation begin_test(const Run& run, Before& before, const kernels::Kerne
                                 : sample_from_nothing(run.config, out, monitor, checkpoint);
     before.times.packing = before.watch.lap();
     before.field = map_field(run.config, run.realization, sample);
+    before.field.covariance_error = field_covariance_error(run.config);
     before.times.field = before.watch.lap();
     before.ready = true;
     return make_simulation(std::move(sample), run.config, kernels,

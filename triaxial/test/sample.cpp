@@ -11,6 +11,7 @@
 #include "core/files/sphere_checks.hpp"
 #include "core/neighbour_search.hpp"
 #include "randomfield/field_error.hpp"
+#include "randomfield/generator.hpp"
 
 namespace grainfield::triaxial {
 
@@ -71,6 +72,19 @@ void check_field_data(const Config& config) {
                                             config.field);
 }
 
+std::optional<double> field_covariance_error(const Config& config) {
+    if (config.field.variable == randomfield::Variable::none) return std::nullopt;
+    const randomfield::GridSpec grid{config.packing.blocks, config.packing.block};
+    // Only circulant embedding knows it of itself, at any size.
+    if (grid.size() > randomfield::max_error_cells &&
+        config.field.method != randomfield::Method::circulant)
+        return std::nullopt;
+    const auto generator = randomfield::make_generator(
+        grid, {config.field.correlation_length, config.field.correlation}, config.field.method,
+        config.field.stage0_cells);
+    return randomfield::covariance_error(*generator).covariance;
+}
+
 FieldRecord map_field(const Config& config, std::int64_t realization, Sample& sample) {
     FieldRecord record;
     record.variable = config.field.variable;
@@ -80,8 +94,6 @@ FieldRecord map_field(const Config& config, std::int64_t realization, Sample& sa
                                                 config.field);
     record.field = generator.draw(static_cast<std::uint64_t>(realization));
     record.gamma = generator.gamma();
-    if (generator.grid().size() <= randomfield::max_error_cells)
-        record.covariance_error = generator.covariance_error();
 
     core::ParticleStore& s = sample.spheres;
     std::vector<std::size_t> cell(s.size());

@@ -30,11 +30,16 @@ struct FieldRecord {
     randomfield::Variable variable = randomfield::Variable::none;
     std::int64_t realization = 0;
     double gamma = 0;                        ///< variance of a cell's G [-]
-    std::optional<double> covariance_error;  ///< of the generator, in gamma [-]
+    std::optional<double> covariance_error;  ///< field_covariance_error(), where looked for [-]
     double mean_ratio_expected = 1;          ///< E[k]/mu (stiffness) [-]
     double mean_ratio_cells = 1;             ///< of this realization's cells [-]
     randomfield::BlockField field;           ///< empty without a random variable
 };
+
+/// Largest covariance error of the config's random field, in units of gamma; none without a random
+/// variable or on grids too large for it. Up to seconds: for the one run whose summary states it,
+/// not for those of a campaign. Throws InputError as randomfield::make_generator.
+std::optional<double> field_covariance_error(const Config& config);
 
 /// Draws realization k and maps it onto the spheres, block by block; spheres without a block take
 /// that of the cell they lie in. Does nothing with field.variable = "none". Throws InputError if a

@@ -76,17 +76,21 @@ Figure slices_figure(const Gnuplot& gnuplot, const std::string& id, const GridSp
                                     x + edge.x(), y, y + edge.y(), value);
             }
         script += fmt::format(
-            "set label '{{/:Italic z}} = {} m' at {},{} center offset 0,0.8 tc rgb '{}'\n",
-            significant((k + 0.5) * edge.z(), 3), panel * pace + width / 2, height, colour::ink);
+            "set label '{{/:Italic z}} = {:.4g} m' at {},{} center offset 0,0.8 tc rgb '{}'\n",
+            (k + 0.5) * edge.z(), panel * pace + width / 2, height, colour::ink);
+        script += fmt::format(
+            "set label '{{/:Italic x}} 0 … {:.4g} m' at {},0 center offset 0,-0.9 tc rgb '{}'\n",
+            width, panel * pace + width / 2, colour::ink);
     }
     gnuplot.data(id + ".dat", rows);
     const double total = pace * panels - 0.12 * width;
-    constexpr double plot_height = 420;  // [px]
-    const double pixels = std::clamp(plot_height * total / height, 200.0, 1300.0);
-    const PictureSize size{static_cast<int>(pixels) + 320,
-                           static_cast<int>(pixels * height / total) + 90};
+    // To scale, unless the panels would be too narrow for their labels, too flat or too tall [px].
+    const double pixels = std::clamp(420 * total / height, 175.0 * panels, 1300.0);
+    const double to_scale = pixels * height / total;
+    const double high = std::clamp(to_scale, 115.0, 800.0);
+    const PictureSize size{static_cast<int>(pixels) + 320, static_cast<int>(high) + 110};
     script += fmt::format(
-        R"(set size ratio -1
+        R"(set size {ratio}
 unset border
 unset grid
 unset xtics
@@ -96,7 +100,7 @@ unset key
 set lmargin at screen {left}
 set rmargin at screen {right}
 set tmargin at screen {top}
-set bmargin at screen 0.05
+set bmargin at screen {bottom}
 set xrange [0:{total}]
 set yrange [0:{height}]
 set palette {palette}
@@ -105,11 +109,13 @@ set colorbox user origin screen {bar},0.2 size screen {bar_width},0.55 noborder
 set style fill solid noborder
 plot '{id}.dat' using 1:2:3:4:5:6:7 with boxxyerror lc palette
 )",
+        fmt::arg("ratio", high == to_scale ? "ratio -1" : "noratio"),
         fmt::arg("left", 120.0 / size.width), fmt::arg("right", 1.0 - 200.0 / size.width),
         fmt::arg("bar", 1.0 - 185.0 / size.width), fmt::arg("bar_width", 22.0 / size.width),
-        fmt::arg("top", 1.0 - 55.0 / size.height), fmt::arg("total", total),
-        fmt::arg("height", height), fmt::arg("palette", Colouring::gnuplot_palette()),
-        fmt::arg("label", label), fmt::arg("id", id));
+        fmt::arg("bottom", 40.0 / size.height), fmt::arg("top", 1.0 - 55.0 / size.height),
+        fmt::arg("total", total), fmt::arg("height", height),
+        fmt::arg("palette", Colouring::gnuplot_palette()), fmt::arg("label", label),
+        fmt::arg("id", id));
     return {image(gnuplot.png(id, size, script), size, caption), caption};
 }
 
