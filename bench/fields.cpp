@@ -124,10 +124,7 @@ bench::FieldPoint measure(const Problem& problem, double theta_y, double budget)
     std::vector<double> normals(generator->normals()), field(grid.size());
     std::uint64_t realization = 0;
     point.normals = median_seconds(budget, [&] { random.normals(realization++, 0, normals); });
-    const auto draw = [&] {
-        random.normals(realization++, 0, normals);
-        generator->apply(normals, field);
-    };
+    const auto draw = [&] { generator->draw(random, realization++, field); };
     point.field = median_seconds(budget, draw);
     if (problem.cells == finest) {
         omp_set_num_threads(omp_get_num_procs());

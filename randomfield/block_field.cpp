@@ -103,11 +103,9 @@ FieldGenerator::FieldGenerator(const GridSpec& grid, const FieldOptions& options
 BlockField FieldGenerator::gaussian(std::uint64_t realization) const {
     BlockField field;
     field.grid = grid();
-    std::vector<double> normals(generator_->normals());
     const auto draw_one = [&](core::Stream stream) {
-        core::RandomStream(options_.seed, stream).normals(realization, 0, normals);
         std::vector<double> g(grid().size());
-        generator_->apply(normals, g);
+        generator_->draw(core::RandomStream(options_.seed, stream), realization, g);
         return g;
     };
     if (options_.variable == Variable::stiffness) {

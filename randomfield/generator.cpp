@@ -1,5 +1,7 @@
 #include "randomfield/generator.hpp"
 
+#include <vector>
+
 #include "core/errors.hpp"
 #include "randomfield/cholesky_generator.hpp"
 #include "randomfield/circulant_generator.hpp"
@@ -20,6 +22,14 @@ double gamma_of(const GridSpec& grid, const CorrelationModel& correlation) {
 
 Generator::Generator(const GridSpec& grid, const CorrelationModel& correlation)
     : grid_(grid), correlation_(correlation), gamma_(gamma_of(grid, correlation)) {}
+
+void Generator::draw(const core::RandomStream& random, std::uint64_t realization,
+                     std::span<double> field) const {
+    thread_local std::vector<double> normals;
+    normals.resize(this->normals());
+    random.normals(realization, 0, normals);
+    apply(normals, field);
+}
 
 std::unique_ptr<const Generator> make_generator(const GridSpec& grid,
                                                 const CorrelationModel& correlation, Method method,

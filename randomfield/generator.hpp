@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "core/random.hpp"
 #include "randomfield/correlation.hpp"
 #include "randomfield/field_options.hpp"
 #include "randomfield/grid.hpp"
@@ -24,6 +25,11 @@ class Generator {
     /// field = M normals, of normals() and of grid().size() numbers, cells at GridSpec::index().
     /// Safe from many threads; the same bits on any number of them.
     virtual void apply(std::span<const double> normals, std::span<double> field) const = 0;
+
+    /// apply() of the normals of a stream at (realization, 0), (realization, 1), ...: the same
+    /// bits, without all of them in memory where the method can do without.
+    virtual void draw(const core::RandomStream& random, std::uint64_t realization,
+                      std::span<double> field) const;
 
     /// Number of standard normals a field takes [-].
     [[nodiscard]] virtual std::size_t normals() const = 0;

@@ -174,8 +174,8 @@ void Halving::make_rows(std::int32_t j, std::int32_t k, std::int32_t count, cons
     kernels::RowsToDraw rows;
     rows.n = n;
     rows.count = static_cast<std::size_t>(count);
-    rows.normals = normals + at / grid.row.size * n;
-    rows.normals_apart = apart / grid.row.size * n;
+    rows.normals = normals + static_cast<std::size_t>(along1 ? j : k) * n;
+    rows.normals_apart = 2 * n;
     rows.parents = parents + at;
     rows.details = details + at;
     rows.apart = apart;
@@ -219,12 +219,34 @@ void Halving::make_slab(std::int32_t slab, const double* normals, const double* 
     }
 }
 
-void Halving::make_children(std::span<const double> normals, std::span<const double> parents,
-                            std::span<double> details, std::span<double> children) const {
+// In a row's order, one row of the slab after the other.
+const double* Halving::normals_of_slab(std::int32_t slab, const NormalSource& normals,
+                                       std::size_t first) const {
+    const auto n = static_cast<std::size_t>(parents_[0]);
+    const auto rows = static_cast<std::size_t>(parents_[3 - slab_axis_]);
+    const auto at = static_cast<std::size_t>(slab);
+    thread_local std::vector<double> room;
+    if (room.size() < rows * n) room.resize(rows * n);
+    const std::span<double> all = std::span<double>(room).first(rows * n);
+    if (slab_axis_ == 2) return normals.get(first + at * rows * n, all);
+    const auto slabs = static_cast<std::size_t>(parents_[1]);
+    for (std::size_t k = 0; k < rows; ++k) {
+        const std::span<double> row = all.subspan(k * n, n);
+        const double* of_row = normals.get(first + (k * slabs + at) * n, row);
+        if (of_row == row.data()) continue;
+        for (std::size_t i = 0; i < n; ++i) row[i] = of_row[i];
+    }
+    return room.data();
+}
+
+void Halving::make_children(const NormalSource& normals, std::size_t first_normal,
+                            std::span<const double> parents, std::span<double> details,
+                            std::span<double> children) const {
     const std::int32_t slabs = parents_[slab_axis_];
     const std::int32_t even = (slabs + 1) / 2;
     const auto make = [&](std::int32_t slab) {
-        make_slab(slab, normals.data(), parents.data(), details.data(), children.data());
+        make_slab(slab, normals_of_slab(slab, normals, first_normal), parents.data(),
+                  details.data(), children.data());
     };
 #pragma omp parallel if (size() >= kParallelCells)
     {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/aligned.hpp"
+#include "core/random.hpp"
 #include "kernels/vector/halving_rows.hpp"
 #include "randomfield/detail_stencil.hpp"
 #include "randomfield/grid.hpp"
@@ -32,6 +33,28 @@ struct RowGrid {
     kernels::RowLayout row;
 };
 
+/// The normals of a field: given, or drawn where and when they are needed.
+class NormalSource {
+  public:
+    explicit NormalSource(std::span<const double> given) : given_(given) {}
+    NormalSource(const core::RandomStream& random, std::uint64_t realization)
+        : random_(&random), realization_(realization) {}
+
+    /// Those from `first` on; `room` is for as many, and theirs where they are drawn. For any
+    /// number of threads at once, each with room of its own.
+    [[nodiscard]] const double* get(std::size_t first, std::span<double> room) const {
+        if (random_ == nullptr) return given_.data() + first;
+        random_->normals(realization_, first, room);
+        return room.data();
+    }
+    [[nodiscard]] bool given() const { return random_ == nullptr; }
+
+  private:
+    std::span<const double> given_;
+    const core::RandomStream* random_ = nullptr;
+    std::uint64_t realization_ = 0;
+};
+
 class Halving {
   public:
     /// `parents`: the grid before, cells and their size [m]. `children`: cells after, 2 n or
@@ -44,11 +67,12 @@ class Halving {
     /// Number of parents, of their details and of the normals they take [-].
     [[nodiscard]] std::size_t size() const { return GridSpec{parents_, {}}.size(); }
 
-    /// Draws the details E of all parents from size() normals, row by row in order, and makes the
-    /// children, P + E and P - E. The other spans are of RowGrids: parents, as many details, and
-    /// children. The same bits on any number of threads.
-    void make_children(std::span<const double> normals, std::span<const double> parents,
-                       std::span<double> details, std::span<double> children) const;
+    /// Draws the details E of all parents from size() normals, row by row in order, those from
+    /// `first` on, and makes the children, P + E and P - E. The other spans are of RowGrids:
+    /// parents, as many details, and children. The same bits on any number of threads.
+    void make_children(const NormalSource& normals, std::size_t first,
+                       std::span<const double> parents, std::span<double> details,
+                       std::span<double> children) const;
 
   private:
     // What is drawn alike in all rows with the same surroundings.
@@ -65,10 +89,13 @@ class Halving {
                row_kinds_[1][static_cast<std::size_t>(k)];
     }
     // `count` rows from (j, k) on, every second one across the slabs' axis, all of one kind.
+    // `normals` are those of the slab.
     void make_rows(std::int32_t j, std::int32_t k, std::int32_t count, const double* normals,
                    const double* parents, double* details, double* children) const;
     void make_slab(std::int32_t slab, const double* normals, const double* parents, double* details,
                    double* children) const;
+    const double* normals_of_slab(std::int32_t slab, const NormalSource& normals,
+                                  std::size_t first) const;
 
     CellCount parents_, children_;
     std::size_t axis_;

@@ -118,7 +118,7 @@ CellCount LasGenerator::stage_cells(std::size_t stage) const {
 
 // Calls visit(grid, rows) for the grid of every stage.
 template <class Visit>
-void LasGenerator::run(std::span<const double> normals, const Visit& visit) const {
+void LasGenerator::run(const NormalSource& normals, const Visit& visit) const {
     // Kept from field to field: fresh memory of this size would cost as much as the field.
     thread_local core::Aligned<double> buffers[3];
     const auto buffer = [&](std::size_t b, std::size_t size) {
@@ -127,7 +127,8 @@ void LasGenerator::run(std::span<const double> normals, const Visit& visit) cons
     };
     const RowGrid first(stages_.front().parents());
     const std::span<double> plain = buffer(2, stage0_.normals());
-    stage0_.apply(normals.first(plain.size()), plain);
+    const std::span<double> rest = buffer(1, plain.size());
+    stage0_.apply({normals.get(0, rest), plain.size()}, plain);
     const std::span<double> rows = buffer(0, first.size());
     std::fill(rows.begin(), rows.end(), 0.0);
     const auto n0 = static_cast<std::size_t>(first.cells[0]);
@@ -140,8 +141,8 @@ void LasGenerator::run(std::span<const double> normals, const Visit& visit) cons
     for (const Halving& stage : stages_) {
         const RowGrid parents(stage.parents()), children(stage.children());
         const std::span<double> halves = buffer(1 - from, children.size());
-        stage.make_children(normals.subspan(used, stage.size()), buffer(from, parents.size()),
-                            buffer(2, parents.size()), halves);
+        stage.make_children(normals, used, buffer(from, parents.size()), buffer(2, parents.size()),
+                            halves);
         used += stage.size();
         from = 1 - from;
         visit(children, halves);
@@ -186,7 +187,7 @@ std::vector<std::vector<double>> LasGenerator::apply_stages(std::span<const doub
         stage0_.apply(normals, fields.front());
         return fields;
     }
-    run(normals, [&](const RowGrid& cells, std::span<const double> rows) {
+    run(NormalSource(normals), [&](const RowGrid& cells, std::span<const double> rows) {
         fields.emplace_back(GridSpec{cells.cells, {}}.size());
         unpack(cells, rows, fields.back());
     });
@@ -194,10 +195,17 @@ std::vector<std::vector<double>> LasGenerator::apply_stages(std::span<const doub
 }
 
 void LasGenerator::apply(std::span<const double> normals, std::span<double> field) const {
-    if (stages_.empty()) {
-        stage0_.apply(normals, field);
-        return;
-    }
+    if (stages_.empty()) return stage0_.apply(normals, field);
+    make(NormalSource(normals), field);
+}
+
+void LasGenerator::draw(const core::RandomStream& random, std::uint64_t realization,
+                        std::span<double> field) const {
+    if (stages_.empty()) return Generator::draw(random, realization, field);
+    make(NormalSource(random, realization), field);
+}
+
+void LasGenerator::make(const NormalSource& normals, std::span<double> field) const {
     run(normals, [&](const RowGrid& cells, std::span<const double> rows) {
         if (cells.cells == stages_.back().children()) unpack(cells, rows, field);
     });

@@ -32,6 +32,9 @@ class LasGenerator final : public Generator {
                  std::int64_t stage0_cells = default_stage0_cells);
 
     void apply(std::span<const double> normals, std::span<double> field) const override;
+    /// The normals of some rows at a time, while these are in cache.
+    void draw(const core::RandomStream& random, std::uint64_t realization,
+              std::span<double> field) const override;
     /// Stage 0, then each stage's parents row by row.
     [[nodiscard]] std::size_t normals() const override { return normals_; }
     [[nodiscard]] bool exact() const override { return stages_.empty(); }
@@ -51,7 +54,8 @@ class LasGenerator final : public Generator {
     struct Plan;
     LasGenerator(const GridSpec& grid, const CorrelationModel& correlation, const Plan& plan);
     template <class Visit>
-    void run(std::span<const double> normals, const Visit& visit) const;
+    void run(const NormalSource& normals, const Visit& visit) const;
+    void make(const NormalSource& normals, std::span<double> field) const;
     void unpack(const RowGrid& from, std::span<const double> rows, std::span<double> field) const;
 
     std::array<std::size_t, 3> axis_;  ///< of the field, for each of the stages' axes

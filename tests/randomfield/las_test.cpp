@@ -212,6 +212,28 @@ TEST(Las, DoesNotDependOnThreads) {
     EXPECT_EQ(fields[0], fields[2]);
 }
 
+// Normals drawn row by row, where they are needed, are those drawn before: in slabs along either
+// axis, on any number of threads, and where nothing is subdivided.
+TEST(Las, DrawsTheFieldOfTheStreamsNormals) {
+    const core::RandomStream random(3, core::Stream::field_friction);
+    const int before = omp_get_max_threads();
+    for (const CellCount& cells :
+         {CellCount{48, 48, 48}, CellCount{100, 90, 10}, CellCount{9, 200, 30},
+          CellCount{1, 1, 700}, CellCount{6, 12, 6}}) {
+        const LasGenerator las(grid_of(cells, 0.03125), paper_theta(0.1));
+        std::vector<double> normals(las.normals()), applied(las.grid().size());
+        random.normals(8, 0, normals);
+        las.apply(normals, applied);
+        for (const int threads : {1, 2}) {
+            omp_set_num_threads(threads);
+            std::vector<double> drawn(applied.size());
+            las.draw(random, 8, drawn);
+            EXPECT_EQ(drawn, applied) << cells[0] << " " << threads;
+        }
+    }
+    omp_set_num_threads(before);
+}
+
 // The same bits on every instruction set of this machine, normals and sums.
 TEST(Las, DoesNotDependOnTheInstructionSet) {
     const LasGenerator las(grid_of({13, 24, 12}, 0.125), paper_theta(0.1), 54);
