@@ -32,7 +32,7 @@ Halving::Halving(const GridSpec& parents, const CellCount& children, std::size_t
       children_(children),
       axis_(axis),
       row_kind_(Surroundings::kinds * Surroundings::kinds, 0) {
-    const auto [n0, n1, n2] = parents_;
+    const std::int32_t n0 = parents_[0], n1 = parents_[1], n2 = parents_[2];
     for (const bool odd : {false, true}) {
         for (const std::int32_t first : kinds_of_places(n0)) {
             const Surroundings around = surroundings_of(first, n0);
@@ -80,7 +80,7 @@ Halving::Halving(const GridSpec& parents, const CellCount& children, std::size_t
 
 void Halving::draw_row(std::int32_t j, std::int32_t k, const double* normals, const double* parents,
                        double* details) const {
-    const auto [n0, n1, n2] = parents_;
+    const std::int32_t n0 = parents_[0], n1 = parents_[1], n2 = parents_[2];
     const std::size_t kind = row_kind_[row_id(surroundings_of(j, n1), surroundings_of(k, n2))];
     const std::size_t row = (static_cast<std::size_t>(k) * n1 + j) * n0;
     for (std::size_t s = 0; s < segments_.size(); ++s) {
@@ -111,7 +111,7 @@ void Halving::draw_details(std::span<const double> normals, std::span<const doub
 
 void Halving::make_children(std::span<const double> parents, std::span<const double> details,
                             std::span<double> children) const {
-    const auto [n0, n1, n2] = parents_;
+    const std::int32_t n0 = parents_[0], n1 = parents_[1], n2 = parents_[2];
     const std::int32_t c0 = children_[0], c1 = children_[1];
     const std::int32_t rows = n1 * n2;
     const std::size_t axis = axis_;
