@@ -61,7 +61,6 @@ int main(int argc, char** argv) {
     try {
         const std::filesystem::path full = samples / "full-100kPa.h5";
         bench::measure(bench::stressed_sample(samples / "blocks-1x1x1-100kPa.h5", {1, 1, 1}), 300);
-        bench::measure(bench::stressed_sample(samples / "blocks-2x4x2-100kPa.h5", {2, 4, 2}), 60);
         // Minutes to pack: measured where another bench has left it.
         if (std::filesystem::exists(full)) bench::measure(bench::full_sample(full), 10);
     } catch (const std::exception& error) {
