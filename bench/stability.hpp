@@ -56,6 +56,10 @@ double kinetic_energy(const core::Simulation& simulation);
 /// that every contact sticks (stability_network.cpp).
 core::Simulation still_network(core::Scene scene, double contrast);
 
+/// The sample brought to the confining stress again and again until it keeps it between still
+/// walls; no sphere moves (stability_rest.cpp).
+core::Simulation settled(const core::Scene& scene);
+
 /// A gnuplot script with the house's colours for {ink}, {muted}, {main}, {contrast}, {soft}; other
 /// braces stand doubled.
 std::string coloured(std::string_view script);

@@ -16,19 +16,7 @@
 #include "packing/isotropic.hpp"
 
 namespace grainfield::bench {
-namespace {
 
-/// The sample brought to the stress, then stopped.
-core::Simulation compressed(const core::Scene& scene) {
-    core::Simulation simulation(scene, double_kernels());
-    core::Monitor silent;
-    core::Driver driver(simulation, {}, silent);
-    packing::compress_isotropically(driver, confining_stress);
-    simulation.scale_velocities(0);
-    return simulation;
-}
-
-/// The same, brought to the stress again and again until it keeps it between still walls.
 core::Simulation settled(const core::Scene& scene) {
     constexpr int most_rounds = 50, hold = 40'000;  // steps between still walls [-]
     constexpr double lost = 1e-3;                   // of the stress, meanwhile [-]
@@ -44,6 +32,18 @@ core::Simulation settled(const core::Scene& scene) {
                         stress, simulation.unbalanced_force_ratio()));
         if (std::abs(stress / confining_stress - 1) < lost + 2e-3) break;
     }
+    simulation.scale_velocities(0);
+    return simulation;
+}
+
+namespace {
+
+/// The sample brought to the stress, then stopped.
+core::Simulation compressed(const core::Scene& scene) {
+    core::Simulation simulation(scene, double_kernels());
+    core::Monitor silent;
+    core::Driver driver(simulation, {}, silent);
+    packing::compress_isotropically(driver, confining_stress);
     simulation.scale_velocities(0);
     return simulation;
 }

@@ -1,7 +1,5 @@
 #include "core/neighbour_search.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <numeric>
 
 #include "core/parallel.hpp"
+#include "core/tasks.hpp"
 #include "kernels/vector/near_points.hpp"
 #include "kernels/vector/records.hpp"
 
@@ -153,7 +152,7 @@ std::vector<kernels::Pair> find_pairs(const Vec3Column& x, const Column<double>&
         for (std::size_t m = 0; m < grids[level].spheres.size(); m += chunk_size)
             pieces.push_back({level, m, std::min(grids[level].spheres.size(), m + chunk_size)});
     std::vector<std::vector<kernels::Pair>> found(pieces.size());
-    tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t p) {
+    for_tasks(pieces.size(), [&](std::size_t p) {
         auto& pairs = found[p];
         std::vector<std::int32_t> near;
         const auto [own, piece_begin, piece_end] = pieces[p];

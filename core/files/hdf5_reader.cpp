@@ -95,7 +95,10 @@ Hdf5Handle Hdf5Reader::open_attribute(const std::string& object, const std::stri
 std::string Hdf5Reader::text_attribute(const std::string& object, const std::string& name) const {
     const Hdf5Handle opened = open_attribute(object, name);
     const Hdf5Handle type(H5Aget_type(opened), H5Tclose);
-    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0)
+    const Hdf5Handle space(H5Aget_space(opened), H5Sclose);
+    // A list of texts would be read past the end of one.
+    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
+        H5Sget_simple_extent_npoints(space) != 1)
         fail(fmt::format("attribute {} of {} is no text of fixed length", name, object));
     std::string value(H5Tget_size(type), '\0');
     if (H5Aread(opened, type, value.data()) < 0)

@@ -1,10 +1,10 @@
 #include "core/vector/spatial_order.hpp"
 
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <numeric>
 #include <tuple>
+
+#include "core/tasks.hpp"
 
 namespace grainfield::core {
 namespace {
@@ -36,7 +36,7 @@ class Bisection {
         const auto low = [&] { divide(begin, middle, first, low_domains); };
         const auto high = [&] { divide(middle, end, first + low_domains, domains - low_domains); };
         if (end - begin > worth_a_thread) {
-            tbb::parallel_invoke(low, high);
+            both(low, high);
         } else {
             low();
             high();

@@ -430,7 +430,7 @@ HWY_INLINE void add_pair_loads(SphereLoad<T>* loads, const std::int32_t* a, cons
     Lane4<T> f{force.x, force.y, force.z, zero}, m{moment.x, moment.y, moment.z, zero};
     if constexpr (sizeof(T) == 4 && 1 < blocks<T>) {
         // A load of eight floats at once: blocks of force and moment side by side.
-        const hn::Full256<T> d;
+        const hn::FixedTag<T, 8> d;
         transpose(f.x, f.y, f.z, f.w);
         transpose(m.x, m.y, m.z, m.w);
         const auto signs = hn::Load(d, load_signs<T>);

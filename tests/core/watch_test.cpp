@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "core/scene.hpp"
 #include "tests/core/test_scenes.hpp"
+#include "tests/reliability/record.hpp"
 
 namespace grainfield::core {
 namespace {
@@ -53,6 +54,11 @@ std::string failure(Scene scene, const kernels::KernelTable& table, const std::s
     } catch (const SimulationError& error) {
         const std::string what = error.what();
         EXPECT_NE(what.find("sphere " + sphere), std::string::npos) << what;
+        reliability::record(
+            "diagnoses",
+            {{"kernels", table.isa},
+             {"steps", std::to_string(sim.steps() > 10 ? sim.steps() - 10 : sim.steps())},
+             {"message", what}});
         return what;
     }
     ADD_FAILURE() << "not noticed within " << Driver::watch_interval << " steps";

@@ -9,6 +9,8 @@
 #include <optional>
 #include <sstream>
 
+#include "tests/reliability/record.hpp"
+
 namespace grainfield::program_tests {
 namespace {
 
@@ -121,6 +123,14 @@ void Tally::ended(const Fault& fault, const Outcome& outcome, const std::string&
 Tally::~Tally() {
     std::ostringstream text;
     int all = 0;
+    for (const auto& [kind, ends] : ends_)
+        for (const auto& [code, count] : ends)
+            reliability::record("faults", {{"run", what_},
+                                           {"calls", std::to_string(calls_)},
+                                           {"kind", kind},
+                                           {"code", std::to_string(code)},
+                                           {"count", std::to_string(count)}});
+    reliability::record("resumed", {{"run", what_}, {"count", std::to_string(resumed_)}});
     for (const auto& [kind, ends] : ends_) {
         text << "; " << kind << ":";
         int injected = 0;

@@ -9,6 +9,7 @@
 #include "core/files/sphere_formats.hpp"
 #include "core/files/text_file.hpp"
 #include "tests/files/sample.hpp"
+#include "tests/fuzz/made_h5.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
 #include <sanitizer/lsan_interface.h>
@@ -188,6 +189,14 @@ TEST_F(SphereH5Test, NamesTheDatasetThatIsMissing) {
     const std::int64_t version = 99;
     newer.attribute("/grainfield", "format_version", std::span(&version, 1));
     EXPECT_EQ(error(newer.finish()), "format version 99; this program reads 1");
+}
+
+TEST_F(SphereH5Test, RefusesAListOfTextsForOne) {
+    // Read as one text, five overran the memory for it.
+    const std::string recipe{0, 0, 0, 3, 1, 5};  // the attribute `kind`: a row of five
+    EXPECT_EQ(error(fuzz::made_h5(recipe)),
+              "attribute kind of /grainfield is no text of fixed length");
+    EXPECT_EQ(read_spheres(text_file("s.h5", fuzz::made_h5(""))).spheres.size(), 2u);
 }
 
 TEST_F(SphereH5Test, WritesAFullSampleFast) {

@@ -80,8 +80,7 @@ TEST_P(Replay, WhatIsRightIsTakenAndWhatIsWrongIsRefused) {
     EXPECT_GT(taken, 0) << "some of the corpus are valid files";
     Spoiler spoiler(7);
     int runs = 0, survived = 0;
-    constexpr int most = 10000;
-    for (int round = 0; runs < most; ++round)
+    for (int round = 0; runs < GetParam().replays; ++round)
         for (const std::string& file : files) {
             survived += GetParam().run(spoiler.spoil(
                             file, files[static_cast<std::size_t>(round) % files.size()]))

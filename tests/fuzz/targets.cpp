@@ -7,6 +7,7 @@
 #include "core/errors.hpp"
 #include "core/files/sphere_checks.hpp"
 #include "core/files/sphere_formats.hpp"
+#include "tests/fuzz/made_h5.hpp"
 #include "triaxial/config/load_config.hpp"
 #include "triaxial/config/scene_file.hpp"
 #include "triaxial/config/write_config.hpp"
@@ -60,6 +61,10 @@ bool sphere_csv(std::string_view input) {
     promise(core::format_sphere_csv(core::parse_sphere_csv(text, "b.csv")) == text,
             "spheres read back as they were written");
     return true;
+}
+
+bool sphere_h5_made(std::string_view recipe) {
+    return sphere_h5(made_h5(recipe));
 }
 
 bool sphere_h5(std::string_view input) {

@@ -12,12 +12,17 @@ bool config(std::string_view input);
 bool scene(std::string_view input);
 bool sphere_csv(std::string_view input);
 bool sphere_h5(std::string_view input);
+bool sphere_h5_made(std::string_view recipe);  ///< the file that made_h5() makes of it
 
 struct Target {
     const char* name;  ///< and folder of its corpus
     bool (*run)(std::string_view);
+    int replays = 10000;  ///< spoilt inputs with every test run
 };
-inline constexpr Target targets[] = {
-    {"config", config}, {"scene", scene}, {"sphere_csv", sphere_csv}, {"sphere_h5", sphere_h5}};
+inline constexpr Target targets[] = {{"config", config},
+                                     {"scene", scene},
+                                     {"sphere_csv", sphere_csv},
+                                     {"sphere_h5", sphere_h5},
+                                     {"sphere_h5_made", sphere_h5_made, 2000}};
 
 }  // namespace grainfield::fuzz

@@ -67,7 +67,7 @@ class DevScript : public testing::Test {
 TEST_F(DevScript, HelpNamesEveryCommand) {
     EXPECT_EQ(run("dev", "help"), 0);
     for (const char* command :
-         {"run", "test", "verify", "build", "bench", "crosscheck", "format", "lint"})
+         {"run", "test", "verify", "build", "bench", "crosscheck", "reliability", "format", "lint"})
         EXPECT_THAT(output(), HasSubstr("\n  " + std::string(command) + " "));
 }
 
@@ -107,6 +107,15 @@ TEST_F(DevScript, InstallsThePeersOnlyForTheCrossCheckAndGoesOnWithoutThem) {
     EXPECT_EQ(run("dev", "crosscheck"), 3);
     EXPECT_THAT(calls(), HasSubstr("install -y --no-install-recommends yade\n"));
     EXPECT_THAT(output(), HasSubstr("going on with the peers that are there"));
+}
+
+TEST_F(DevScript, InstallsWhatReliabilityNeedsForThatOnlyAndKnowsItsParts) {
+    tool("dpkg-query", "case $* in *valgrind) exit 1 ;; *) echo installed ;; esac");
+    EXPECT_EQ(run("dev", "test"), 0) << output();
+    EXPECT_THAT(calls(), Not(HasSubstr("apt-get")));
+    EXPECT_EQ(run("dev", "reliability nonsense"), 1);
+    EXPECT_THAT(calls(), HasSubstr("install -y --no-install-recommends valgrind\n"));
+    EXPECT_THAT(output(), HasSubstr("no part 'nonsense' in tests/reliability"));
 }
 
 TEST_F(DevScript, UsesSudoWhereNotRootAndNeverAsks) {

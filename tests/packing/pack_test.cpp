@@ -12,6 +12,7 @@
 #include "core/errors.hpp"
 #include "packing/isotropic.hpp"
 #include "tests/packing/small_samples.hpp"
+#include "tests/reliability/record.hpp"
 
 namespace grainfield::packing {
 namespace {
@@ -132,6 +133,15 @@ TEST(Pack, InterruptedAnywhereAndResumedIsTheSame) {
         EXPECT_EQ(resumed->block.spheres.position, undisturbed->block.spheres.position) << stop;
         EXPECT_EQ(resumed->block.grading.scale, undisturbed->block.grading.scale) << stop;
         EXPECT_EQ(resumed->isotropic_stress, 20e3) << stop;
+        reliability::record(
+            "restarts",
+            {{"of", stop <= block ? "pack, the block" : "pack, settling and compression"},
+             {"kernels", "auto"},
+             {"step", std::to_string(stop)},
+             {"steps", std::to_string(all)},
+             {"threads", std::to_string(omp_get_max_threads())},
+             {"threads_after", std::to_string(omp_get_max_threads())},
+             {"same", reliability::same(resumed->state_hash, undisturbed->state_hash)}});
     }
     fs::remove(file);
     fs::remove(core::file_before(file));

@@ -11,6 +11,7 @@
 
 #include "kernels/vector/vector_tables.hpp"
 #include "tests/program/program.hpp"
+#include "tests/reliability/record.hpp"
 
 namespace grainfield::program_tests {
 namespace {
@@ -166,6 +167,16 @@ TEST(SimulateRun, ASignalEndsWith130AndResumingGivesTheSameFiles) {
                   undisturbed.json("run/summary.json").at("state_hash"));
         const std::filesystem::directory_iterator files(place.path("run"));
         EXPECT_EQ(std::distance(begin(files), end(files)), 4) << "no checkpoint, no .part";
+        reliability::record(
+            "restarts",
+            {{"of", "the program: `simulate`, a signal in mid-run"},
+             {"kernels", "auto"},
+             {"step", "?"},
+             {"steps", "20000"},
+             {"threads", "auto"},
+             {"threads_after", "2"},
+             {"same", reliability::same(place.json("run/summary.json").at("state_hash"),
+                                        undisturbed.json("run/summary.json").at("state_hash"))}});
     }
 }
 

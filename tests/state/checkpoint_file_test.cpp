@@ -12,6 +12,7 @@
 #include "core/files/text_file.hpp"
 #include "core/state/part_of.hpp"
 #include "tests/files/sample.hpp"
+#include "tests/reliability/record.hpp"
 
 namespace grainfield::core {
 namespace {
@@ -86,6 +87,8 @@ TEST_F(CheckpointFile, IsRefusedAtEveryLength) {
                     StartsWith(file().string() + ": is "))
             << length;
     }
+    reliability::record("refusals",
+                        {{"how", "cut, at every length"}, {"count", std::to_string(whole.size())}});
     text_file("run.bin", whole + '\0');
     EXPECT_THAT(message_of<FileError>([&] { find_checkpoint(file()); }), HasSubstr("length"));
 }
@@ -101,6 +104,8 @@ TEST_F(CheckpointFile, IsRefusedWithAnyBitFlipped) {
                     StartsWith(file().string() + ": is "))
             << bit;
     }
+    reliability::record("refusals", {{"how", "every bit flipped, one at a time"},
+                                     {"count", std::to_string(8 * whole.size())}});
 }
 
 TEST_F(CheckpointFile, ADamagedOneGivesWayToTheOneBefore) {

@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "core/servo.hpp"
 #include "tests/core/test_scenes.hpp"
+#include "tests/reliability/record.hpp"
 
 namespace grainfield::core {
 namespace {
@@ -110,12 +111,20 @@ TEST_P(SimulationState, GoesOnToTheSameBitsFromAnyStep) {
             EXPECT_EQ(second.sim.keeps_ledger(), ledger);
             go_on(second.driver, second.servo, total);
             EXPECT_EQ(second.sim.state_hash(), hash) << at;
+            const std::string same = reliability::same(second.sim.state_hash(), hash);
             second.sim.compute_forces(true);
             EXPECT_EQ(second.sim.time(), undisturbed.sim.time());
             EXPECT_EQ(second.sim.list_builds(), undisturbed.sim.list_builds());
             EXPECT_EQ(second.sim.neighbour_searches(), undisturbed.sim.neighbour_searches());
             EXPECT_EQ(second.sim.neighbour_renewals(), undisturbed.sim.neighbour_renewals());
             EXPECT_EQ(second.sim.energy().closing(), closing);
+            reliability::record("restarts", {{"of", "3,375 spheres between walls that close in"},
+                                             {"kernels", GetParam().name},
+                                             {"step", std::to_string(at)},
+                                             {"steps", std::to_string(total)},
+                                             {"threads", std::to_string(1 + trial % 2)},
+                                             {"threads_after", std::to_string(2 - trial % 2)},
+                                             {"same", same}});
         }
     }
 }

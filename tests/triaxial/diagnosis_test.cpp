@@ -3,12 +3,14 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "core/errors.hpp"
 #include "core/kernel_choice.hpp"
 #include "packing/isotropic.hpp"
 #include "tests/kernels/kernel_tables.hpp"
+#include "tests/reliability/record.hpp"
 #include "tests/triaxial/small_test.hpp"
 #include "triaxial/test/shear.hpp"
 
@@ -52,12 +54,19 @@ class Diagnosis : public kernels::KernelTest {
             EXPECT_GE(simulation.steps(), at);
             EXPECT_LE(simulation.steps(), at + 200) << error.what();
             EXPECT_EQ(saboteur.told_at, simulation.steps());
+            record(simulation.steps() - at, error.what());
             EXPECT_THAT(error.what(), HasSubstr("step "));
             EXPECT_THAT(error.what(), HasSubstr("time "));
             return error.what();
         }
         ADD_FAILURE() << "not noticed";
         return "";
+    }
+    /// Steps until it was noticed, and the message.
+    static void record(std::int64_t steps, const std::string& message) {
+        reliability::record(
+            "diagnoses",
+            {{"kernels", GetParam().name}, {"steps", std::to_string(steps)}, {"message", message}});
     }
     std::int64_t spoilt_steps_ = 1;
     Sample sample_;
@@ -114,6 +123,7 @@ TEST_P(Diagnosis, OfAServoThatCannotHold) {
     options.confining_stress *= 1000;
     const std::int64_t begin = simulation.steps();
     ShearStage shear(driver, options);
+    std::string message;
     try {
         shear.run();
         ADD_FAILURE() << "not noticed";
@@ -121,13 +131,15 @@ TEST_P(Diagnosis, OfAServoThatCannotHold) {
         EXPECT_THAT(error.what(), HasSubstr("the side walls do not hold the confining stress"));
         EXPECT_THAT(error.what(), HasSubstr("axial strain 0.2"));
         EXPECT_EQ(saboteur.told_at, simulation.steps());
+        message = error.what();
     }
     // From 0.1 % of strain on it counts.
     const double start = std::log(1 / (1 - 1e-3)) / options.strain_rate;
-    EXPECT_LE(
-        simulation.steps() - begin,
-        static_cast<std::int64_t>(start / (shear.time() / static_cast<double>(shear.steps()))) +
-            200);
+    const std::int64_t counts =
+        begin +
+        static_cast<std::int64_t>(start / (shear.time() / static_cast<double>(shear.steps())));
+    EXPECT_LE(simulation.steps(), counts + 200);
+    record(std::max<std::int64_t>(0, simulation.steps() - counts), message);
 }
 
 TEST_P(Diagnosis, LeavesASoundTestAlone) {

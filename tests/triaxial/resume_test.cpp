@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "core/kernel_choice.hpp"
 #include "tests/kernels/kernel_tables.hpp"
+#include "tests/reliability/record.hpp"
 #include "tests/triaxial/small_test.hpp"
 
 namespace grainfield::triaxial {
@@ -101,6 +102,21 @@ TEST_P(Resume, AtRandomStepsEndsWithTheSameBits) {
         ASSERT_TRUE(resumed);
         SCOPED_TRACE(stop);
         expect_same(*resumed, *undisturbed);
+        const std::string same = reliability::same(resumed->simulation.state_hash(),
+                                                   undisturbed->simulation.state_hash());
+        const auto record = [&](std::int64_t at, std::int64_t threads) {
+            const bool shear = at >= undisturbed->result.isotropic_steps;
+            reliability::record("restarts",
+                                {{"of", shear ? "triaxial, shear" : "triaxial, compression"},
+                                 {"kernels", GetParam().name},
+                                 {"step", std::to_string(at)},
+                                 {"steps", std::to_string(steps)},
+                                 {"threads", std::to_string(threads)},
+                                 {"threads_after", std::to_string(2 - stop % 2)},
+                                 {"same", same}});
+        };
+        record(stop, 1 + stop % 2);
+        record(stop + (steps - stop) / 2, 2 - stop % 2);
     }
 }
 
@@ -109,14 +125,25 @@ TEST_P(Resume, AfterAKillGoesOnFromTheLastCheckpoint) {
     Config config = testing::small_config(sample);
     config.triaxial.max_axial_strain = 0.001;
     const auto undisturbed = run(sample, config, false, 1 << 30);
+    const std::int64_t steps = steps_;
     every_ = 1e-9;  // at every sixteenth step
     ASSERT_FALSE(run(sample, config, false, steps_ / 2));
     fs::remove(file_);  // as if the save on the interruption had never been
     every_ = 0;
     const auto resumed = run(sample, config, true, 1 << 30);
     ASSERT_TRUE(resumed);
+    const std::int64_t begin = steps - steps_;
     EXPECT_LT(steps_, undisturbed->result.isotropic_steps + undisturbed->result.shear_steps);
     expect_same(*resumed, *undisturbed);
+    reliability::record("restarts",
+                        {{"of", "triaxial, the last checkpoint after a kill"},
+                         {"kernels", GetParam().name},
+                         {"step", std::to_string(begin)},
+                         {"steps", std::to_string(steps)},
+                         {"threads", std::to_string(threads_)},
+                         {"threads_after", std::to_string(threads_)},
+                         {"same", reliability::same(resumed->simulation.state_hash(),
+                                                    undisturbed->simulation.state_hash())}});
 }
 
 GRAINFIELD_FOR_ALL_KERNELS(Resume);

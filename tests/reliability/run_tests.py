@@ -1,0 +1,32 @@
+"""Runs tests that count what they do (tests/reliability/record.hpp) and reads their records."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+from common import build, fail, root
+
+
+def run_tests(part, pattern, *targets):
+    """All tests whose names match must pass. Gives the rows of each kind of record."""
+    records = root / "build/release/reliability" / part
+    build("release", *targets)
+    shutil.rmtree(records, ignore_errors=True)
+    # Two threads, so that restarts with one and with two are two things.
+    environment = {**os.environ, "GRAINFIELD_RELIABILITY": str(records), "OMP_NUM_THREADS": "2",
+                   "OMP_WAIT_POLICY": "passive"}  # others may use the machine
+    command = ["ctest", "--preset", "release", "--no-tests=error", "-R", pattern]
+    if subprocess.run(command, cwd=root, env=environment, stdout=sys.stderr).returncode != 0:
+        fail("a test failed: the page stays as it was")
+    return {file.stem: [json.loads(line) for line in file.read_text().splitlines()]
+            for file in records.glob("*.jsonl")}
+
+
+def grouped(rows, *keys):
+    """Rows of equal values of these keys together, in the order of their first."""
+    groups = {}
+    for row in rows:
+        groups.setdefault(tuple(row[key] for key in keys), []).append(row)
+    return groups
