@@ -1,4 +1,4 @@
-// Friction of bodies that differ, and what becomes of a spring whose contact opens.
+// Friction of bodies that differ, and what becomes of a spring whose contact turns or opens.
 
 #include <gtest/gtest.h>
 
@@ -12,6 +12,7 @@ namespace grainfield::core {
 namespace {
 
 using FrictionLimit = KernelTest;
+using TurnedSpring = KernelTest;
 using GoneSpring = KernelTest;
 
 constexpr double small_radius = 0.6 * test_radius;
@@ -70,6 +71,26 @@ TEST_P(FrictionLimit, OnAWallIsThatOfTheSmoother) {
             EXPECT_NEAR(contacts[0].shear.norm(), std::min(0.7, wall) * pressed,
                         roundoff(2000) * pressed);
         }
+}
+
+TEST_P(TurnedSpring, OnAWallTurnsByHalfTheSpinAboutTheNormal) {
+    // The wall does not turn, the sphere does: their contact by the mean. The force moves the
+    // sphere by 3e-8 m in the step, which changes a spring of 7 kN/m by 1e-4 of its force.
+    constexpr double angle = 0.06;  // of the sphere [rad]
+    Scene scene = resting(1e-3, 1e6, test_stiffness);
+    std::fill(scene.spheres.friction_angle.begin(), scene.spheres.friction_angle.end(),
+              std::atan(1e6));
+    scene.spheres.spin.set(0, angle / step * direction);
+    Simulation sim(std::move(scene), table());
+    sim.compute_forces();
+    const Vec3 shear = 4.0 * direction.unitOrthogonal();
+    ASSERT_TRUE(sim.restore_shear(0, -1, shear));
+    sim.compute_forces();
+    sim.advance(step);
+    sim.compute_forces();
+    const Vec3 expected = Eigen::AngleAxisd(0.5 * angle, direction) * shear;
+    ASSERT_EQ(sim.touching_contacts(), 1);
+    EXPECT_LT((sim.touching()[0].shear - expected).norm(), 1e-3 * shear.norm());
 }
 
 /// Work of friction since the start [J].
@@ -134,6 +155,7 @@ TEST_P(GoneSpring, OnAWallIsDissipated) {
 }
 
 GRAINFIELD_FOR_ALL_KERNELS(FrictionLimit);
+GRAINFIELD_FOR_ALL_KERNELS(TurnedSpring);
 GRAINFIELD_FOR_ALL_KERNELS(GoneSpring);
 
 }  // namespace

@@ -78,13 +78,14 @@ def timed(program, filter, environment):
     return times, failed
 
 
-def batches(times, limits=(0.02, 0.1, 1.0, 5.0, float("inf"))):
-    """{program: {test: seconds}} in batches, quick ones of all programs first."""
-    plan, below = [], -1.0
-    for limit in limits:
-        for program, tests in times.items():
-            chosen = [t for t, seconds in tests.items() if below < seconds <= limit]
-            if chosen:
-                plan.append(Batch(program, chosen, sum(tests[t] for t in chosen)))
-        below = limit
-    return plan
+def batches(times, limits=(0.1, 1.0, 5.0, float("inf"))):
+    """{program: {test: seconds}} in batches, each of tests of one suite that take about as long;
+    quick ones first."""
+    plan = {}
+    for program, tests in times.items():
+        for test, seconds in tests.items():
+            tier = next(k for k, limit in enumerate(limits) if seconds <= limit)
+            batch = plan.setdefault((tier, program, test.split(".")[0]), Batch(program, [], 0.0))
+            batch.tests.append(test)
+            batch.seconds += seconds
+    return sorted(plan.values(), key=lambda batch: batch.seconds)
