@@ -86,6 +86,22 @@ TEST_P(Lists, NoContactOfAFewFastSpheresIsMissed) {
     EXPECT_LT(sim.neighbour_searches(), sim.neighbour_renewals());
 }
 
+TEST_P(Lists, AreNotBuiltAnewWhileSpheresFollowTheBox) {
+    // Spheres that move with the homogeneous strain of a box, 0.6 % in all: at its faces by 6 mm,
+    // twice the skin, but no two of them by more than 0.12 m times the strain.
+    Scene scene = scene_of(loose_balls({7, 7, 7}, 1.3, 0.0));
+    const Vec3 size = loose_box({7, 7, 7}, 1.3).size();
+    scene.walls = box_walls({Vec3::Zero(), size}, plane(Vec3::Zero(), Vec3::UnitX()));
+    const Vec3 rate(-0.3, -0.2, 0.1);
+    Simulation sim(std::move(scene), table());
+    for (std::size_t a = 0; a < 3; ++a)
+        sim.set_wall_velocity(2 * a + 1, rate[a] * size[a] * Vec3::Unit(a));
+    sim.add_velocities([&](std::size_t, const Vec3& x) { return Vec3(rate.cwiseProduct(x)); });
+    run_steps(sim, 1e-3, 20);
+    sim.compute_forces();
+    EXPECT_EQ(sim.list_builds(), 1);
+}
+
 TEST_P(Lists, NoContactIsMissedAtASkewWallInATravellingBox) {
     // The spheres travel with the box and are at rest in it; a skew wall stands still.
     Scene scene = scene_of({Ball{.x = Vec3(0.2, 0.2, 0.2), .v = Vec3(1, 0, 0)}});

@@ -175,6 +175,18 @@ TEST_P(LatticeStress, FabricOfASimpleCubicBlock) {
     EXPECT_LT(fabric.anisotropy, 1e-12);
 }
 
+TEST_P(LatticeStress, CornersOfAFreeBlockAreRattlers) {
+    Simulation sim(cubic_block(4, Vec3::Constant(1e-3 * R), Eigen::Matrix3d::Identity()), table());
+    sim.set_walls({});
+    sim.compute_forces();
+    // 144 contacts; each of the 8 corners has three, spheres of the edges four.
+    const Fabric fabric = measure_fabric(sim);
+    EXPECT_DOUBLE_EQ(fabric.coordination_number, 2 * 144.0 / 64);
+    EXPECT_DOUBLE_EQ(fabric.rattler_fraction, 8.0 / 64);
+    EXPECT_NEAR(fabric.rattler_volume_fraction, 8.0 / 64, 1e-14);  // sums of 64 terms
+    EXPECT_DOUBLE_EQ(fabric.mechanical_coordination_number, 2 * (144.0 - 24) / 56);
+}
+
 GRAINFIELD_FOR_ALL_KERNELS(LatticeStress);
 
 }  // namespace

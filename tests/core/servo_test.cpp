@@ -120,6 +120,53 @@ TEST_P(Servo, ClosesAGapAtItsSpeedAndAnswersOneSphereExactly) {
                 std::max(1e-9, roundoff(10) * test_radius));
 }
 
+/// A sphere pressed between a floor and a lid by a thousandth of its radius each.
+Scene pressed_sphere() {
+    Scene scene = scene_of({Ball{}});
+    scene.walls = {plane(Vec3(0, -0.999 * test_radius, 0), Vec3::UnitY()),
+                   plane(Vec3(0, 0.999 * test_radius, 0), -Vec3::UnitY())};
+    return scene;
+}
+
+TEST_P(Servo, AnswersAnErrorByItsGainAndTheSumOfItsIntegral) {
+    // While nothing moves the error e stays: the speed is (gain + n integral) e/(K h) in the n-th
+    // step. The overlap, 1e-3 of the radius, comes in with the round-off of the radius.
+    const double k = 0.5 * test_radius * test_stiffness, force = k * 1e-3 * test_radius;
+    const double area = 0.02, step = 1e-4, gain = 0.7, integral = 0.05;
+    for (const double share : {0.5, 1.5}) {  // target over present force
+        Simulation sim(pressed_sphere(), table());
+        sim.compute_forces();
+        WallServo servo(
+            1,
+            {.stress = share * force / area, .max_speed = 1e3, .gain = gain, .integral = integral});
+        const double answer = (1 - share) * force / k / step;  // e/(K h), outwards [m/s]
+        const double tolerance = roundoff(1e4) * std::abs(answer);
+        for (int n = 1; n <= 3; ++n) {
+            EXPECT_NEAR(servo.steer(sim, area, step), (1 - share) / share, roundoff(1e4));
+            EXPECT_NEAR(sim.walls()[1].velocity.y(), (gain + n * integral) * answer, tolerance);
+            EXPECT_NEAR(servo.steady_speed(), n * integral * answer, tolerance);
+        }
+        servo.set_speed(0.25);
+        servo.steer(sim, area, step);
+        EXPECT_NEAR(sim.walls()[1].velocity.y(), 0.25 + (gain + integral) * answer, tolerance);
+    }
+}
+
+TEST_P(Servo, DoesNotWindUpWhileItsSpeedIsCapped) {
+    const double k = 0.5 * test_radius * test_stiffness, force = k * 1e-3 * test_radius;
+    const double area = 0.02, step = 1e-4, cap = 1e-3;
+    for (const double share : {0.5, 1.5}) {
+        Simulation sim(pressed_sphere(), table());
+        sim.compute_forces();
+        WallServo servo(1, {.stress = share * force / area, .max_speed = cap});
+        for (int n = 0; n < 3; ++n) {
+            servo.steer(sim, area, step);
+            EXPECT_EQ(sim.walls()[1].velocity, Vec3(0, share < 1 ? cap : -cap, 0));
+            EXPECT_EQ(servo.steady_speed(), 0.0);
+        }
+    }
+}
+
 GRAINFIELD_FOR_ALL_KERNELS(Servo);
 
 }  // namespace

@@ -134,6 +134,76 @@ TEST_P(Watch, UnstableStepIsNoticed) {
         SimulationError);
 }
 
+// Engines look for trouble in every step; these check that they see it as soon as it is there. The
+// spheres get there by themselves: one that is pushed is looked at anyhow.
+
+/// Whether the watch finds the pair sound when sphere 1 has moved to `overlap` [m] by itself.
+bool sound_at_overlap(const kernels::KernelTable& table, double radius, double overlap) {
+    const double reach = test_radius + radius, step = 1e-4, way = 0.02 * radius;
+    Scene scene =
+        scene_of({Ball{.stiffness = 1e-9}, Ball{.x = Vec3(reach - overlap + 9.5 * way, 0, 0),
+                                                .v = Vec3(-way / step, 0, 0),
+                                                .radius = radius,
+                                                .stiffness = 1e-9}});
+    Simulation sim(std::move(scene), table);
+    sim.compute_forces();
+    sim.check_state();
+    for (int k = 0; k < 9; ++k) {
+        sim.advance(step);
+        sim.compute_forces();
+        sim.check_state();
+    }
+    sim.advance(step);  // half a step's way past `overlap`
+    sim.compute_forces();
+    try {
+        sim.check_state();
+    } catch (const SimulationError&) {
+        return false;
+    }
+    return true;
+}
+
+TEST_P(Watch, SeesAnOverlapOfHalfTheSmallerRadius) {
+    for (const double radius : {test_radius, 0.3 * test_radius}) {
+        EXPECT_TRUE(sound_at_overlap(table(), radius, 0.48 * radius)) << radius;
+        EXPECT_FALSE(sound_at_overlap(table(), radius, 0.505 * radius)) << radius;
+    }
+}
+
+TEST_P(Watch, SeesASphereHalfARadiusInAWall) {
+    const double step = 1e-4, way = 0.02 * test_radius;
+    Scene scene = scene_of({Ball{
+        .x = Vec3(0, 0.61 * test_radius, 0), .v = Vec3(0, -way / step, 0), .stiffness = 1e-9}});
+    scene.walls = {plane(Vec3::Zero(), Vec3::UnitY())};
+    Simulation sim(std::move(scene), table());
+    for (int k = 0; k < 6; ++k) {
+        sim.compute_forces();
+        EXPECT_NO_THROW(sim.check_state()) << k;  // 0.49 of the radius in the wall at last
+        sim.advance(step);
+    }
+    sim.compute_forces();
+    EXPECT_THROW(sim.check_state(), SimulationError);
+}
+
+TEST_P(Watch, SeesAStepOfHalfARadius) {
+    // A fall that gets faster by a tenth of a radius a step.
+    const double step = 1e-4;
+    Scene scene = scene_of({Ball{}});
+    scene.gravity = Vec3(0, -0.1 * test_radius / (step * step), 0);
+    Simulation sim(std::move(scene), table());
+    for (int k = 0; k < 6; ++k) {
+        // After k steps it moves (k - 1/2)/10 of a radius a step.
+        sim.compute_forces();
+        if (k > 0) {  // what is new is suspicious until it has been looked at
+            EXPECT_FALSE(sim.alarmed()) << k;
+        }
+        EXPECT_NO_THROW(sim.check_state()) << k;
+        sim.advance(step);
+    }
+    EXPECT_TRUE(sim.alarmed());
+    EXPECT_THROW(sim.check_state(), SimulationError);
+}
+
 /// The message of check_start.
 std::string start_error(const Scene& scene) {
     try {

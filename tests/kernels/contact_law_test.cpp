@@ -77,6 +77,14 @@ TEST(ContactLaw, PlaneMotionIsTheSlipOfTheContactPoint) {
               8 * eps * step * rolling.norm());
 }
 
+TEST(ContactLaw, ShearOnAPlaneTurnsByHalfTheSpinAboutTheNormal) {
+    const Vec3 outward = Vec3(1, 2, 2) / 3.0, shear = 3.0 * outward.unitOrthogonal();
+    const Vec3 turned =
+        plane_motion(outward, 0.05, Vec3::Zero(), 4.0 * outward, shear, 0.05).turned_shear;
+    const Vec3 expected = Eigen::AngleAxisd(0.5 * 4.0 * 0.05, outward) * shear;
+    EXPECT_LT((turned - expected).norm(), 8 * eps * shear.norm());
+}
+
 TEST(ContactLaw, SphereMotionIsTheSlipOfTheContactPointToSecondOrder) {
     const Vec3 normal0 = Vec3(2, -1, 2) / 3.0;
     const Vec3 spin_i(3, -1, 2), spin_j(-0.5, 2, 1);
