@@ -153,7 +153,7 @@ TEST_F(DevScript, CiRunsUnitsThenSanitizersThenTheLongTests) {
               "ctest --preset release -L ^unit$ -j 2 --no-tests=error\n"
               "cmake --preset asan\ncmake --build --preset asan --target unit_tests -j\n"
               "ctest --preset asan -L ^unit$ -j 2 --no-tests=error\n"
-              "ctest --preset release -LE ^(unit|extra)$\n");
+              "ctest --preset release -LE ^(unit|extra)$ -j 2\n");
 }
 
 TEST_F(DevScript, TestsCanBeChosen) {
@@ -162,7 +162,7 @@ TEST_F(DevScript, TestsCanBeChosen) {
     EXPECT_EQ(run("dev", "test --quick"), 0) << output();
     EXPECT_THAT(calls(), Not(HasSubstr("asan")));
     EXPECT_EQ(run("dev", "test --all"), 0) << output();
-    EXPECT_THAT(calls(), HasSubstr("ctest --preset release -LE ^unit$\n"));
+    EXPECT_THAT(calls(), HasSubstr("ctest --preset release -LE ^unit$ -j 2\n"));
 }
 
 TEST_F(DevScript, VerifyWritesThePageFromATestRunOnly) {
