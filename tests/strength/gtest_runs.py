@@ -78,6 +78,20 @@ def timed(program, filter, environment):
     return times, failed
 
 
+def listed(program, filter):
+    """Names of all tests of a program."""
+    lines = subprocess.run([program, f"--gtest_filter={filter}", "--gtest_list_tests"], check=True,
+                           capture_output=True, text=True).stdout.splitlines()
+    names, suite = [], ""
+    for line in lines:
+        word = line.split("#")[0].strip()
+        if line.startswith("  "):
+            names.append(suite + word)
+        elif word.endswith("."):
+            suite = word
+    return names
+
+
 def batches(times, limits=(0.1, 1.0, 5.0, float("inf"))):
     """{program: {test: seconds}} in batches, each of tests of one suite that take about as long;
     quick ones first."""
