@@ -56,11 +56,12 @@ def run(batch, environment, limit):
     return Outcome(False, started[-1] if started else batch.program.name, how)
 
 
-def timed(program, filter, environment):
-    """Runs all tests of a program; their names and times, those that failed, those skipped."""
+def timed(program, tests, environment):
+    """Runs tests of a program; their names and times, those that failed, those skipped."""
     with tempfile.TemporaryDirectory() as folder:
-        report = pathlib.Path(folder) / "report.json"
-        subprocess.run([program, f"--gtest_filter={filter}", f"--gtest_output=json:{report}"],
+        report, flags = pathlib.Path(folder) / "report.json", pathlib.Path(folder) / "flags"
+        flags.write_text(f"--gtest_output=json:{report}\n--gtest_filter={':'.join(tests)}\n")
+        subprocess.run([program, f"--gtest_flagfile={flags}"],
                        env=os.environ | environment, stdout=subprocess.DEVNULL,
                        stderr=subprocess.DEVNULL)
         if not report.is_file():
@@ -76,6 +77,20 @@ def timed(program, filter, environment):
             if "failures" in test:
                 failed.append(name)
     return times, failed
+
+
+def listed(program, filter):
+    """Names of all tests of a program."""
+    lines = subprocess.run([program, f"--gtest_filter={filter}", "--gtest_list_tests"], check=True,
+                           capture_output=True, text=True).stdout.splitlines()
+    names, suite = [], ""
+    for line in lines:
+        word = line.split("#")[0].strip()
+        if line.startswith("  "):
+            names.append(suite + word)
+        elif word.endswith("."):
+            suite = word
+    return names
 
 
 def batches(times, limits=(0.1, 1.0, 5.0, float("inf"))):
