@@ -48,8 +48,11 @@ HWY_INLINE void draw(const RowPiece& piece, std::size_t at, const RowsToDraw& ro
             } else {
                 const std::size_t done = at + v * kLanes;
                 const std::size_t left = piece.cells > done ? piece.cells - done : 0;
+                // With nothing left not even one may be read: plain code has no masked loads.
                 sum[r * width + v] =
-                    hn::Mul(w, hn::MaskedLoad(hn::FirstN(d, std::min(left, kLanes)), d, from));
+                    left == 0 ? hn::Zero(d)
+                              : hn::Mul(w, hn::MaskedLoad(hn::FirstN(d, std::min(left, kLanes)), d,
+                                                          from));
             }
         }
     }
