@@ -8,6 +8,8 @@
 #include <fstream>
 #include <vector>
 
+#include "core/large_pages.hpp"
+
 namespace grainfield::bench {
 
 std::string cpu_name() {
@@ -45,11 +47,10 @@ double triad_bandwidth(std::size_t bytes) {
     return best;
 }
 
-std::size_t resident_bytes() {
-    malloc_trim(0);  // what was freed counts no more
-    std::ifstream status("/proc/self/statm");
-    std::size_t total = 0, resident = 0;
-    return status >> total >> resident ? resident * 4096 : 0;
+std::size_t bytes_in_use() {
+    // What was freed stays resident and counts no more.
+    const struct mallinfo2 heap = mallinfo2();
+    return heap.uordblks + heap.hblkhd + core::large_bytes_in_use();
 }
 
 }  // namespace grainfield::bench

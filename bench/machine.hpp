@@ -13,7 +13,7 @@ std::string cpu_name();
 /// of several runs [B/s]; 24 B an element, as STREAM counts.
 double triad_bandwidth(std::size_t bytes);
 
-/// Resident memory of this process [B]; 0 where the system does not tell.
-std::size_t resident_bytes();
+/// Memory that this process has allocated and not given back [B].
+std::size_t bytes_in_use();
 
 }  // namespace grainfield::bench

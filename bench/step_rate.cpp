@@ -86,7 +86,7 @@ struct Case {
 constexpr const char* header =
     "sample,spheres,contacts,isa,precision,threads,ms_per_step,sphere_steps_per_s,contacts_per_s,"
     "least_traffic_B,triad_B_per_s,ratio_to_floor,traffic_B,share_of_triad,evaluated_over_contacts,"
-    "list_builds_per_1000_steps,searches_per_1000_steps,renewals_per_1000_steps,resident_B_per_"
+    "list_builds_per_1000_steps,searches_per_1000_steps,renewals_per_1000_steps,memory_B_per_"
     "sphere\n";
 
 struct Measured {
@@ -94,10 +94,10 @@ struct Measured {
     std::vector<bench::SpeedPoint> points;
 };
 
-/// Runs all cases in turns, so that what else the machine does hits them alike. `resident` is the
+/// Runs all cases in turns, so that what else the machine does hits them alike. `before` is the
 /// process's memory before they were made [B].
 Measured measure(std::vector<Case>& cases, int rounds, int steps, double triad,
-                 std::size_t resident) {
+                 std::size_t before) {
     for (Case& c : cases) c.sample->run(300);  // the jolt of the start dies away
     std::vector<std::int64_t> builds, searches, renewals;
     for (const Case& c : cases) {
@@ -107,8 +107,7 @@ Measured measure(std::vector<Case>& cases, int rounds, int steps, double triad,
     }
     for (int r = 0; r < rounds; ++r)
         for (Case& c : cases) c.milliseconds.push_back(1e3 * c.sample->run(steps) / steps);
-    const double grown =
-        static_cast<double>(bench::resident_bytes()) - static_cast<double>(resident);
+    const double grown = static_cast<double>(bench::bytes_in_use()) - static_cast<double>(before);
     Measured measured;
     for (std::size_t k = 0; k < cases.size(); ++k) {
         const Case& c = cases[k];
@@ -158,7 +157,7 @@ const kernels::KernelTable& best() {
 
 void step_rates(const core::Scene& full, const std::filesystem::path& out, int rounds,
                 double triad) {
-    const std::size_t resident = bench::resident_bytes();
+    const std::size_t before = bench::bytes_in_use();
     std::vector<Case> cases;
     cases.push_back(make_case("full", full, kernels::reference_kernels(), 1));
     cases.push_back(make_case("full", full, kernels::reference_kernels(), 2));
@@ -172,13 +171,14 @@ void step_rates(const core::Scene& full, const std::filesystem::path& out, int r
             for (const int threads : {1, 2})
                 cases.push_back(make_case("full", full, *table, threads));
     }
-    const Measured measured = measure(cases, rounds, 50, triad, resident);
+    const Measured measured = measure(cases, rounds, 50, triad, before);
     core::write_file_atomically(out / "step_rate.csv", header + measured.rows);
     core::write_file_atomically(out / "step_rate.png", bench::rate_picture(measured.points));
 }
 
 /// The sample between walls that stand still, as the peers run it.
 void at_rest(const core::Scene& full) {
+    const std::size_t before = bench::bytes_in_use();
     core::Simulation simulation(full, best());
     simulation.compute_forces();
     const auto steps = [&](int n) {
@@ -187,18 +187,21 @@ void at_rest(const core::Scene& full) {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
     steps(20);
-    fmt::print("Grainfield  {:8.2f} ms a step ({}, {})\n", 1e3 * steps(200) / 200, best().isa,
-               best().precision);
+    const double ms = 1e3 * steps(200) / 200;
+    fmt::print("Grainfield  {:8.2f} ms a step ({}, {}), {:.0f} B a sphere\n", ms, best().isa,
+               best().precision,
+               static_cast<double>(bench::bytes_in_use() - before) /
+                   static_cast<double>(full.spheres.size()));
 }
 
 void sizes(const core::Scene& full, const std::filesystem::path& out, int rounds, double triad) {
     std::string rows = header;
     std::vector<bench::SpeedPoint> points;
     const auto add = [&](const std::string& name, const core::Scene& scene) {
-        const std::size_t resident = bench::resident_bytes();
+        const std::size_t before = bench::bytes_in_use();
         std::vector<Case> cases;
         cases.push_back(make_case(name, scene, best(), 2));
-        const Measured measured = measure(cases, rounds, 50, triad, resident);
+        const Measured measured = measure(cases, rounds, 50, triad, before);
         rows += measured.rows;
         points.push_back(measured.points.front());
     };

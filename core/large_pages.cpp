@@ -55,6 +55,10 @@ class Region {
         const std::lock_guard lock(mutex_);
         buffer_.deallocate(block);
     }
+    std::size_t in_use() {
+        const std::lock_guard lock(mutex_);
+        return begin_ == nullptr ? 0 : buffer_.get_size() - buffer_.get_free_memory();
+    }
 
   private:
     char* begin_ = nullptr;
@@ -79,6 +83,10 @@ bool free_large(void* block) noexcept {
     if (!region().holds(block)) return false;
     region().free(block);
     return true;
+}
+
+std::size_t large_bytes_in_use() noexcept {
+    return region().in_use();
 }
 
 }  // namespace grainfield::core

@@ -16,4 +16,7 @@ void* allocate_large(std::size_t bytes, std::size_t alignment) noexcept;
 /// Gives back a block. False if it is none of allocate_large().
 bool free_large(void* block) noexcept;
 
+/// What of the region is in use [B].
+std::size_t large_bytes_in_use() noexcept;
+
 }  // namespace grainfield::core
