@@ -51,7 +51,7 @@ std::string size_picture(const std::vector<SpeedPoint>& points) {
     std::string data;
     for (const SpeedPoint& p : points)
         data += fmt::format("{} {} {}\n", p.spheres, 1e6 * p.milliseconds / p.spheres,
-                            p.resident_per_sphere);
+                            p.memory_per_sphere);
     gnuplot.data("sizes.dat", data);
     return gnuplot.png("sizes", {.width = 900, .height = 400},
                        fmt::format(R"(

@@ -12,7 +12,7 @@ struct SpeedPoint {
     int threads = 1;
     double spheres = 0;              ///< [-]
     double milliseconds = 0;         ///< a step, median [ms]
-    double resident_per_sphere = 0;  ///< [B]
+    double memory_per_sphere = 0;  ///< [B]
 };
 
 /// Bars of sphere-steps per second, one and two threads side by side: a PNG file's bytes.

@@ -281,7 +281,7 @@ HWY_INLINE Lane4<T> load4(const std::array<const T*, lanes<T>>& at, std::size_t 
                           HWY_ATTR { return hn::LoadU(d, at[lane] + offset + o); });
 }
 
-/// Calls put(lane, offset, block) for every block of what store4 or add4 has to write.
+/// Calls put(lane, offset, block) for every block of what is to be written or added.
 template <class T, class Put>
 HWY_INLINE void rows(Lane4<T> v, std::size_t offset, const Put& put) {
     if constexpr (sizeof(T) == 4) {
@@ -299,12 +299,6 @@ HWY_INLINE void rows(Lane4<T> v, std::size_t offset, const Put& put) {
         split<T>(c, [&](std::size_t q, auto block) HWY_ATTR { put(2 * q, offset + 2, block); });
         split<T>(e, [&](std::size_t q, auto block) HWY_ATTR { put(2 * q + 1, offset + 2, block); });
     }
-}
-template <class T>
-HWY_INLINE void store4(Lane4<T> v, const std::array<T*, lanes<T>>& at, std::size_t offset) {
-    rows<T>(v, offset, [&](std::size_t lane, std::size_t o, auto block) HWY_ATTR {
-        hn::StoreU(block, Block<T>(), at[lane] + o);
-    });
 }
 /// Adds to the four numbers at at[l] + offset, in a fixed order of the lanes: two lanes may point
 /// to the same place.
