@@ -16,8 +16,14 @@ namespace ip = boost::interprocess;
 
 constexpr std::size_t large_page = std::size_t{2} << 20;  // [B]
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool wanted = false;  // the sanitizers have to see every block
+// The sanitizers have to see every block. g++ and clang say each in its own way that they are on.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define GRAINFIELD_SANITIZED
+#endif
+#endif
+#if defined(GRAINFIELD_SANITIZED) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool wanted = false;
 #else
 constexpr bool wanted = true;
 #endif
