@@ -98,13 +98,15 @@ core::Simulation reduced(const core::Simulation& simulation, const std::vector<s
     }
     core::Simulation result(std::move(scene), simulation.kernel_table());
     result.compute_forces();
+    std::vector<core::ContactShear> contacts;
     for (const core::TouchingContact& contact : simulation.touching()) {
         const std::int32_t i = number[static_cast<std::size_t>(contact.i)];
         const std::int32_t j =
             contact.j < 0 ? contact.j : number[static_cast<std::size_t>(contact.j)];
         const bool both = i >= 0 && (contact.j < 0 || j >= 0);
-        if (both) result.restore_shear(i, j, contact.shear);
+        if (both) contacts.push_back({i, j, contact.shear});
     }
+    result.restore_shear(contacts);
     return result;
 }
 

@@ -83,7 +83,7 @@ double sum_bound(const core::Simulation& simulation) {
     }
     double largest = 0;
     for (std::size_t i = 0; i < sum.size(); ++i)
-        largest = std::max(largest, sum[i] * simulation.inverse_inertial_mass()[i]);
+        largest = std::max(largest, sum[i] * simulation.inverse_inertial_mass(i));
     return 2 / std::sqrt(largest);
 }
 

@@ -34,13 +34,13 @@ struct LineAllocator {
 template <class T>
 using Aligned = std::vector<T, LineAllocator<T>>;
 
-/// Resizes a list whose length changes a little every time: a tenth of reserve instead of the
+/// Resizes a list whose length changes a little every time: a little reserve instead of the
 /// doubling of a vector, which would never be used.
 template <class Column>
 void resize_list(Column& column, std::size_t n) {
     if (column.capacity() < n) {
         Column wider;
-        wider.reserve(n + n / 10);
+        wider.reserve(n + n / 32);
         wider.assign(column.begin(), column.end());
         column.swap(wider);
     }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/state/bytes.hpp"
@@ -16,6 +17,12 @@ struct TouchingContact {
     std::int32_t i, j;  ///< spheres, i < j; j = -1 - wall for a wall [-]
     Vec3 shear;         ///< shear force on i [N]
     Vec3 force;         ///< whole force on i [N]
+};
+
+/// What a contact carries from step to step.
+struct ContactShear {
+    std::int32_t i, j;  ///< spheres; j = -1 - wall for a wall [-]
+    Vec3 shear;         ///< shear force on i [N]
 };
 
 /// What a step has to do, for those who measure.
@@ -65,9 +72,9 @@ class Engine {
     virtual std::vector<kernels::Pair> neighbours() const = 0;
     /// Sum over spheres of |resultant force|; forces must be current [N].
     virtual double resultant_sum() = 0;
-    /// Sets the shear force of a touching candidate [N] (used when a saved state is loaded). False
-    /// if the two are no candidates.
-    virtual bool restore(std::int32_t i, std::int32_t j, const Vec3& shear) = 0;
+    /// Sets the shear forces of candidates, which touch from then on (used when a saved state is
+    /// loaded). Leaves out those that are no candidates; returns how many are.
+    virtual std::size_t restore(std::span<const ContactShear> contacts) = 0;
     /// All that the engine carries from step to step, so that a run goes on to the same bits. What
     /// is loaded was saved by an engine for the same kernels; the world has been loaded before.
     virtual void save(StateWriter& archive) const = 0;

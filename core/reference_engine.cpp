@@ -10,9 +10,22 @@
 
 namespace grainfield::core {
 
+Inertias::Inertias(const World& world, std::size_t begin, std::size_t end) {
+    inverse_mass.reserve(end - begin);
+    inverse_inertia.reserve(end - begin);
+    for (std::size_t i = begin; i < end; ++i) {
+        inverse_mass.push_back(world.inverse_inertial_mass(i));
+        inverse_inertia.push_back(world.inverse_inertia(i));
+    }
+}
+
 void ReferenceEngine::push() {
-    world_.force.resize(world_.size());
-    world_.moment.resize(world_.size());
+    const std::size_t n = world_.size();
+    world_.force.resize(n);
+    world_.moment.resize(n);
+    inertias_ = Inertias(world_, 0, n);
+    friction_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) friction_[i] = world_.friction(i);
 }
 
 void ReferenceEngine::invalidate_lists() {
@@ -55,7 +68,7 @@ void ReferenceEngine::compute_forces(bool sums) {
     for (const kernels::ContactSums& p : partial) world_.contact_sums += p;
     wall_forces(sums);
 
-    const kernels::MotionColumns columns = motion_columns(world_);
+    const kernels::MotionColumns columns = motion_columns(world_, 0, inertias_);
     const kernels::MotionParameters motion = motion_parameters(world_, 0.0);
     for_chunks(world_.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
         kernels::gather_forces(columns, contacts_.all_columns(), contacts_.offsets(),
@@ -96,7 +109,7 @@ void ReferenceEngine::move(double step) {
     motion.y0 = x0.y.data();
     motion.z0 = x0.z.data();
     motion.affine = affine_motion(step);  // at the end of the step
-    const kernels::MotionColumns columns = motion_columns(world_);
+    const kernels::MotionColumns columns = motion_columns(world_, 0, inertias_);
     const std::size_t n = world_.size();
     std::vector<kernels::MotionSums> partial(chunk_count(n));
     for_chunks(n, [&](std::size_t c, std::size_t begin, std::size_t end) {
@@ -167,31 +180,31 @@ kernels::SphereColumns ReferenceEngine::sphere_columns() const {
     return {s.position.x.data(), s.position.y.data(),       s.position.z.data(),
             s.velocity.x.data(), s.velocity.y.data(),       s.velocity.z.data(),
             s.spin.x.data(),     s.spin.y.data(),           s.spin.z.data(),
-            s.radius.data(),     s.normal_stiffness.data(), world_.friction.data()};
+            s.radius.data(),     s.normal_stiffness.data(), friction_.data()};
 }
 
-kernels::MotionColumns motion_columns(World& world) {
+kernels::MotionColumns motion_columns(World& world, std::size_t begin, const Inertias& inertias) {
     ParticleStore& s = world.scene.spheres;
     Vec3Column &f = world.force, &m = world.moment;
-    return {s.position.x.data(),
-            s.position.y.data(),
-            s.position.z.data(),
-            s.velocity.x.data(),
-            s.velocity.y.data(),
-            s.velocity.z.data(),
-            s.spin.x.data(),
-            s.spin.y.data(),
-            s.spin.z.data(),
-            f.x.data(),
-            f.y.data(),
-            f.z.data(),
-            m.x.data(),
-            m.y.data(),
-            m.z.data(),
-            s.radius.data(),
-            s.mass.data(),
-            world.inverse_inertial_mass.data(),
-            world.inverse_inertia.data()};
+    return {s.position.x.data() + begin,
+            s.position.y.data() + begin,
+            s.position.z.data() + begin,
+            s.velocity.x.data() + begin,
+            s.velocity.y.data() + begin,
+            s.velocity.z.data() + begin,
+            s.spin.x.data() + begin,
+            s.spin.y.data() + begin,
+            s.spin.z.data() + begin,
+            f.x.data() + begin,
+            f.y.data() + begin,
+            f.z.data() + begin,
+            m.x.data() + begin,
+            m.y.data() + begin,
+            m.z.data() + begin,
+            s.radius.data() + begin,
+            s.mass.data() + begin,
+            inertias.inverse_mass.data(),
+            inertias.inverse_inertia.data()};
 }
 
 kernels::MotionParameters motion_parameters(const World& world, double new_step) {

@@ -8,6 +8,14 @@
 
 namespace grainfield::core {
 
+/// What the kernels need of spheres begin <= i < end that follows from their masses.
+struct Inertias {
+    Column<double> inverse_mass, inverse_inertia;  ///< [1/kg], [1/(kg m2)]
+
+    Inertias() = default;
+    Inertias(const World& world, std::size_t begin, std::size_t end);
+};
+
 class ReferenceEngine : public Engine {
   public:
     ReferenceEngine(World& world, const kernels::ReferenceKernels& kernels)
@@ -32,8 +40,10 @@ class ReferenceEngine : public Engine {
         return {contacts_.pairs().begin(), contacts_.pairs().end()};
     }
     double resultant_sum() override;
-    bool restore(std::int32_t i, std::int32_t j, const Vec3& shear) override {
-        return contacts_.restore(i, j, shear);
+    std::size_t restore(std::span<const ContactShear> contacts) override {
+        std::size_t found = 0;
+        for (const auto& [i, j, shear] : contacts) found += contacts_.restore(i, j, shear);
+        return found;
     }
     void save(StateWriter& archive) const override;
     void load(StateReader& archive) override;
@@ -51,11 +61,14 @@ class ReferenceEngine : public Engine {
 
     const kernels::ReferenceKernels& kernels_;
     ContactList contacts_;
+    Column<double> friction_;             // tan(phi) [-]
+    Inertias inertias_;                   // of all spheres
     double max_square_displacement_ = 0;  // since the lists were built, beyond affine [m2]
 };
 
-/// Columns of a world's spheres for the kernels that move them and measure their motion.
-kernels::MotionColumns motion_columns(World& world);
+/// Columns of a world's spheres from `begin` on for the kernels that move them and measure their
+/// motion; `inertias` begin there too and have to last as long as the columns are used.
+kernels::MotionColumns motion_columns(World& world, std::size_t begin, const Inertias& inertias);
 /// Parameters of a step of length new_step [s]; 0 to measure.
 kernels::MotionParameters motion_parameters(const World& world, double new_step);
 

@@ -53,8 +53,9 @@ void Simulation::move_walls(double step) {
 kernels::OnStep Simulation::on_step(std::size_t i) const {
     scene();
     resultant(i);
-    return kernels::on_step_motion(motion_columns(*world_), motion_parameters(*world_, 0.0),
-                                   world_->motion_features(), i);
+    const Inertias inertia(*world_, i, i + 1);
+    return kernels::on_step_motion(motion_columns(*world_, i, inertia),
+                                   motion_parameters(*world_, 0.0), world_->motion_features(), 0);
 }
 
 Vec3 Simulation::resultant(std::size_t i) const {
@@ -79,8 +80,9 @@ Energy Simulation::energy() const {
     const kernels::MotionParameters p = motion_parameters(*world_, 0.0);
     const kernels::StateSums state =
         sum_chunks<kernels::StateSums>(world_->size(), [&](std::size_t begin, std::size_t end) {
-            return kernels::sum_state(motion_columns(*world_), p, world_->motion_features(), begin,
-                                      end);
+            const Inertias inertias(*world_, begin, end);
+            return kernels::sum_state(motion_columns(*world_, begin, inertias), p,
+                                      world_->motion_features(), 0, end - begin);
         });
     Energy e;
     e.kinetic = state.kinetic;

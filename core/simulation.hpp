@@ -9,6 +9,7 @@
 // step() does both at once where nothing but wall velocities is steered in between, to the same
 // bits. Results are the same, bit for bit, for any number of threads.
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -61,10 +62,14 @@ class Simulation {
     /// Contacts that touched at the last force evaluation, sorted by (i, j), walls last.
     std::vector<TouchingContact> touching() const { return engine_->touching(); }
     std::int64_t touching_contacts() const { return engine_->touching_count(); }  ///< [-]
-    /// Restores the shear force on i [N] of a contact, j = -1 - wall for a wall; false if the two
-    /// are not near each other.
+    /// Restores the shear forces of contacts; those of bodies that are not near each other are left
+    /// out. Returns how many were restored. Forces have been computed before.
+    std::size_t restore_shear(std::span<const ContactShear> contacts) {
+        return engine_->restore(contacts);
+    }
+    /// The shear force on i [N] of one contact, j = -1 - wall for a wall; true if it was restored.
     bool restore_shear(std::int32_t i, std::int32_t j, const Vec3& shear) {
-        return engine_->restore(i, j, shear);
+        return restore_shear(std::array{ContactShear{i, j, shear}}) == 1;
     }
     /// The next force evaluation searches for neighbours anew; for tests, nothing needs it.
     void rebuild_lists() { engine_->invalidate_lists(); }
@@ -113,8 +118,9 @@ class Simulation {
     void set_walls(std::vector<Wall> walls);  ///< replaces all; history with walls is lost
     /// Inertia of each sphere relative to its real mass (mass scaling), >= 1 [-].
     void set_inertia_scale(std::span<const double> scale);
-    std::span<const double> inverse_inertial_mass() const { return world_->inverse_inertial_mass; }
-    std::span<const double> inverse_inertia() const { return world_->inverse_inertia; }
+    /// Of the motion of sphere i [1/kg], and of its spin [1/(kg m2)]; scaled ones.
+    double inverse_inertial_mass(std::size_t i) const { return world_->inverse_inertial_mass(i); }
+    double inverse_inertia(std::size_t i) const { return world_->inverse_inertia(i); }
 
     /// Throws SimulationError, naming sphere, step, time and place, if a position or velocity is
     /// not a number, an overlap exceeds half a radius, or a sphere moves more than half its radius

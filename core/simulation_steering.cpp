@@ -82,7 +82,9 @@ void Simulation::set_walls(std::vector<Wall> walls) {
 void Simulation::set_inertia_scale(std::span<const double> scale) {
     scene();
     world_->external_work += energy_gained([&] {
-        std::copy(scale.begin(), scale.end(), world_->inertia_scale.begin());
+        const bool as_they_are =
+            std::all_of(scale.begin(), scale.end(), [](double s) { return s == 1; });
+        world_->inertia_scale.assign(scale.begin(), as_they_are ? scale.begin() : scale.end());
         changed();
     });
 }

@@ -43,7 +43,6 @@ kernels::AffineMotion box_motion(std::span<const Wall> walls, std::span<const Ve
 
 World::World(Scene scene_, SimulationOptions options_)
     : scene(std::move(scene_)), options(options_) {
-    inertia_scale.assign(size(), 1.0);
     if (size() > 0) {
         const auto [smallest, largest] =
             std::minmax_element(spheres().radius.begin(), spheres().radius.end());
@@ -55,19 +54,10 @@ World::World(Scene scene_, SimulationOptions options_)
 
 void World::refresh() {
     const ParticleStore& s = spheres();
-    const std::size_t n = s.size();
-    friction.resize(n);
-    inverse_inertial_mass.resize(n);
-    inverse_inertia.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        friction[i] = std::tan(s.friction_angle[i]);
-        const double mass = s.mass[i] * inertia_scale[i];
-        inverse_inertial_mass[i] = 1.0 / mass;
-        inverse_inertia[i] = 1.0 / (0.4 * mass * s.radius[i] * s.radius[i]);
-    }
-    per_sphere = !all_equal(s.normal_stiffness) || !all_equal(friction);
-    has_friction = scene.stiffness_ratio > 0 &&
-                   std::any_of(friction.begin(), friction.end(), [](double f) { return f > 0; });
+    per_sphere = !all_equal(s.normal_stiffness) || !all_equal(s.friction_angle);
+    has_friction =
+        scene.stiffness_ratio > 0 && std::any_of(s.friction_angle.begin(), s.friction_angle.end(),
+                                                 [](double angle) { return std::tan(angle) > 0; });
     has_wall_friction = false;
     planes.resize(scene.walls.size());
     for (std::size_t w = 0; w < planes.size(); ++w) {

@@ -2,6 +2,7 @@
 // What a simulation consists of: the scene, what follows from it, what the last force evaluation
 // found, and the clock. Engines compute on it; Simulation guards it.
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -20,11 +21,10 @@ struct World {
     Scene scene;
     SimulationOptions options;
 
+    Column<double> inertia_scale;  ///< inertia over real mass; empty where it is 1 throughout [-]
+
     // What follows from the scene; refresh() keeps it.
-    Column<double> friction;                                ///< tan(phi) [-]
-    Column<double> inertia_scale;                           ///< inertia over real mass [-]
-    Column<double> inverse_inertial_mass, inverse_inertia;  ///< [1/kg], [1/(kg m2)]
-    std::vector<kernels::PlaneWall> planes;                 ///< as the contacts see the walls
+    std::vector<kernels::PlaneWall> planes;  ///< as the contacts see the walls
     bool has_friction = false, has_wall_friction = false;
     bool per_sphere = false;    ///< stiffness or friction differ from sphere to sphere
     double largest_radius = 0;  ///< [m]
@@ -52,13 +52,26 @@ struct World {
     /// Motion that the contacts have not seen yet [s].
     double elapsed() const { return forces_at == steps ? 0.0 : old_step; }
     double uniform_stiffness() const { return size() ? spheres().normal_stiffness[0] : 0.0; }
-    double uniform_friction() const { return friction.empty() ? 0.0 : friction[0]; }
+    double uniform_friction() const { return size() ? friction(0) : 0.0; }
+    double friction(std::size_t i) const { return std::tan(spheres().friction_angle[i]); }  ///< [-]
+    /// Of the motion [1/kg].
+    double inverse_inertial_mass(std::size_t i) const { return 1.0 / inertial_mass(i); }
+    /// Of the spin [1/(kg m2)].
+    double inverse_inertia(std::size_t i) const {
+        const double radius = spheres().radius[i];
+        return 1.0 / (0.4 * inertial_mass(i) * radius * radius);
+    }
     kernels::MotionFeatures motion_features() const;
 
     /// Clears the wall loads for a new evaluation and keeps the last ones.
     void begin_wall_loads();
     /// Adds the works of the evaluation just made to the ledger, if it is kept.
     void end_evaluation();
+
+  private:
+    double inertial_mass(std::size_t i) const {
+        return spheres().mass[i] * (inertia_scale.empty() ? 1.0 : inertia_scale[i]);
+    }
 };
 
 /// Motion of the box between the walls at `built` and the walls at `now` [m]: where two opposite

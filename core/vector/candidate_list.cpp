@@ -15,9 +15,9 @@ constexpr T far_apart[kernels::separation_size] = {4, 0, 0, -2};
 void Proposals::resize(std::size_t n, std::int32_t idle) {
     count = n;
     const std::size_t size = kernels::padded(n);
-    for (auto* column : {&a, &b}) resize_list(*column, size);
+    resize_list(b, size);
     resize_list(stretch, size);
-    for (std::size_t k = n; k < size; ++k) a[k] = b[k] = idle;
+    for (std::size_t k = n; k < size; ++k) b[k] = idle;
 }
 
 template <class T>
@@ -30,6 +30,7 @@ KeptContact<T> CandidateList<T>::kept_contact(std::size_t k, std::size_t proposa
 
 template <class T>
 void CandidateList<T>::keep(const Proposals& proposals, std::vector<KeptContact<T>>& kept) const {
+    kept.reserve(kept.size() + begin[1]);  // others seldom touch
     // Candidates of a stretch stand in the order of their proposals.
     std::array<std::size_t, kernels::stretches + 1> next = begin;
     for (std::size_t p = 0; p < proposals.count; ++p) {
@@ -48,8 +49,9 @@ void CandidateList<T>::keep_by_record(std::vector<KeptContact<T>>& kept) const {
 }
 
 template <class T>
-void CandidateList<T>::build(const Proposals& proposals, const Aligned<T>& separations,
-                             std::int32_t idle, std::span<const KeptContact<T>> kept) {
+void CandidateList<T>::build(std::span<const std::int32_t> firsts, const Proposals& proposals,
+                             const Aligned<T>& separations, std::int32_t idle,
+                             std::span<const KeptContact<T>> kept) {
     using kernels::history_size, kernels::in_block, kernels::separation_size;
     // Counting sort by stretch; no branches, which nobody could foresee. Those that are no
     // candidates come last and are dropped: they have room to be written to.
@@ -68,7 +70,7 @@ void CandidateList<T>::build(const Proposals& proposals, const Aligned<T>& separ
     for (std::size_t p = 0; p < proposals.count; ++p) {
         const std::size_t stretch = proposals.stretch[p];
         const std::size_t k = std::min(first[stretch]++, count());
-        a[k] = proposals.a[p] * kernels::record_stride<T>;
+        a[k] = firsts[p] * kernels::record_stride<T>;
         b[k] = proposals.b[p] * kernels::record_stride<T>;
         for (std::size_t c = 0; c < separation_size; ++c)
             separation[in_block(k, c, separation_size)] =

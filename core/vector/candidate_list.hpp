@@ -20,12 +20,13 @@ inline std::uint8_t stretch_of(double used) {
 }
 
 /// Pairs that a candidate list is chosen from, in an order that lasts from one build to the next.
+/// Their first records stand elsewhere: pairs that follow each other mostly share them.
 struct Proposals {
-    Aligned<std::int32_t> a, b;     ///< records
+    Aligned<std::int32_t> b;        ///< second records
     Aligned<std::uint8_t> stretch;  ///< kernels::stretches if it is no candidate
     std::size_t count = 0;          ///< without padding
 
-    /// Makes room for `n` pairs, in no particular state, and padding: pairs of the record `idle`.
+    /// Makes room for `n` pairs, in no particular state, and padding: the record `idle`.
     void resize(std::size_t n, std::int32_t idle);
 };
 
@@ -70,10 +71,11 @@ struct CandidateList {
     void keep(const Proposals& proposals, std::vector<KeptContact<T>>& kept) const;
     /// The same where a proposal's place is the number of its first record.
     void keep_by_record(std::vector<KeptContact<T>>& kept) const;
-    /// Replaces the list by those proposals that are candidates; `separation` of each is in blocks.
-    /// Contacts in `kept` have their history there if they are in the first stretch; padding gets
-    /// the record `idle`.
-    void build(const Proposals& proposals, const Aligned<T>& separation, std::int32_t idle,
+    /// Replaces the list by those proposals that are candidates; `firsts` are their first records,
+    /// `separation` of each is in blocks. Contacts in `kept` have their history there if they are
+    /// in the first stretch; padding gets the record `idle`.
+    void build(std::span<const std::int32_t> firsts, const Proposals& proposals,
+               const Aligned<T>& separation, std::int32_t idle,
                std::span<const KeptContact<T>> kept);
     /// The candidates that can touch while no more than `used` of any reserve is used up.
     kernels::Candidates<T> view(double used, Aligned<std::int32_t>& scratch);

@@ -29,16 +29,10 @@ VectorEngine<T>::VectorEngine(World& world, const kernels::VectorKernels<T>& ker
     const ParticleStore& s = world.spheres();
     const std::size_t n = s.size();
     order_ = order_in_space(s.position, domain_size(n));
-    slot_of_.resize(n);
     built_.position.resize(n);
-    built_.radius.resize(n);
     built_.reserve.resize(n);
-    for (std::size_t slot = 0; slot < n; ++slot) {
-        const auto i = static_cast<std::size_t>(order_.sphere[slot]);
-        slot_of_[i] = static_cast<std::int32_t>(slot);
-        built_.position.set(slot, s.position[i]);
-        built_.radius[slot] = s.radius[i];
-    }
+    for (std::size_t slot = 0; slot < n; ++slot)
+        built_.position.set(slot, s.position[static_cast<std::size_t>(order_.sphere[slot])]);
     if (n > 0) smallest_radius_ = *std::min_element(s.radius.begin(), s.radius.end());
     domains_.resize(order_.first.size() - 1);
     for (std::size_t d = 0; d < domains_.size(); ++d) {
@@ -46,7 +40,7 @@ VectorEngine<T>::VectorEngine(World& world, const kernels::VectorKernels<T>& ker
         domain.first = order_.first[d];
         domain.own = order_.first[d + 1] - order_.first[d];
         domain.records.resize(domain.ghost_begin() + 1);
-        domain.bodies.resize(body_columns * domain.ghost_begin());
+        domain.bodies.resize(weightless_columns * domain.ghost_begin());
     }
     push();
 }
@@ -62,12 +56,12 @@ void VectorEngine<T>::push() {
             assign3(r.v, s.velocity[i]);
             r.compliance = static_cast<T>(1 / s.normal_stiffness[i]);
             assign3(r.w, s.spin[i]);
-            r.friction = static_cast<T>(world_.friction[i]);
+            r.friction = static_cast<T>(world_.friction(i));
             for (int a = 0; a < 3; ++a) r.radius_spin[a] = r.radius * r.w[a];
-            domain.body(inverse_mass)[k] = static_cast<T>(world_.inverse_inertial_mass[i]);
-            domain.body(spin_response)[k] = static_cast<T>(s.radius[i] * world_.inverse_inertia[i]);
-            domain.body(mass)[k] = static_cast<T>(s.mass[i]);
+            domain.body(inverse_mass)[k] = static_cast<T>(world_.inverse_inertial_mass(i));
+            domain.body(spin_response)[k] = static_cast<T>(s.radius[i] * world_.inverse_inertia(i));
         }
+    if (weighed_) weigh();
     if (!world_.has_friction)
         for (Domain<T>& domain : domains_) {
             std::fill(domain.pairs.history.begin(), domain.pairs.history.end(), T(0));
@@ -75,6 +69,17 @@ void VectorEngine<T>::push() {
                 std::fill(wall.list.history.begin(), wall.list.history.end(), T(0));
         }
     suspicious_ = true;  // what was pushed has not been looked at
+}
+
+/// Gives the bodies their masses.
+template <class T>
+void VectorEngine<T>::weigh() {
+    for (Domain<T>& domain : domains_) {
+        domain.bodies.resize(body_columns * domain.ghost_begin());
+        for (std::size_t k = 0; k < domain.own; ++k)
+            domain.body(mass)[k] = static_cast<T>(mass_of(domain, k));
+    }
+    weighed_ = true;
 }
 
 template <class T>
@@ -111,32 +116,13 @@ template <class T>
 void VectorEngine<T>::pull_resultants() {
     world_.force.resize(world_.size());
     world_.moment.resize(world_.size());
-#pragma omp parallel for schedule(static) if (domains_.size() > 1)
-    for (std::size_t d = 0; d < domains_.size(); ++d) {
-        const Domain<T>& domain = domains_[d];
-        for (std::size_t k = 0; k < domain.own; ++k) {
-            const auto i = static_cast<std::size_t>(order_.sphere[domain.first + k]);
-            world_.force.set(
-                i, vec3(domain.loads[k].force) + world_.spheres().mass[i] * world_.scene.gravity);
-            world_.moment.set(i,
-                              world_.spheres().radius[i] * vec3(domain.loads[k].moment_per_radius));
-        }
-    }
+    run({.again = true, .sums = false, .use = Pass::columns, .step = 0});
 }
 
 template <class T>
 double VectorEngine<T>::resultant_sum() {
-    std::vector<double> partial(domains_.size());
-    const Vec3 gravity = world_.scene.gravity;
-#pragma omp parallel for schedule(static) if (domains_.size() > 1)
-    for (std::size_t d = 0; d < domains_.size(); ++d) {
-        Domain<T>& domain = domains_[d];
-        for (std::size_t k = 0; k < domain.own; ++k)
-            partial[d] +=
-                (vec3(domain.loads[k].force) + double{domain.body(mass)[k]} * gravity).norm();
-    }
     double sum = 0;
-    for (double p : partial) sum += p;
+    for (const Domain<T>& domain : domains_) sum += domain.resultant_sum;
     return sum;
 }
 
@@ -145,18 +131,18 @@ double VectorEngine<T>::resultant_sum() {
 template <class T>
 void VectorEngine<T>::compute_forces(bool sums) {
     if (stale_ || !(used_reserves() < 1)) rebuild();
-    run({.forces = true, .sums = sums, .motion = false, .step = 0});
+    run({.again = false, .sums = sums, .use = Pass::sum, .step = 0});
 }
 
 template <class T>
 void VectorEngine<T>::move(double step) {
-    run({.forces = false, .sums = false, .motion = true, .step = step});
+    run({.again = true, .sums = false, .use = Pass::motion, .step = step});
 }
 
 template <class T>
 void VectorEngine<T>::compute_and_move(double step) {
     if (stale_ || !(used_reserves() < 1)) rebuild();
-    run({.forces = true, .sums = world_.options.ledger, .motion = true, .step = step});
+    run({.again = false, .sums = world_.options.ledger, .use = Pass::motion, .step = step});
 }
 
 /// Reads what a domain needs out of order, so that it is in this core's cache; columns read in
@@ -176,16 +162,20 @@ void touch(const Domain<T>& domain) {
 
 template <class T>
 void VectorEngine<T>::run(const Pass& pass) {
-    // Once a stretch of candidates is in play it stays so until the next build: contacts in it
-    // carry history.
-    most_used_ = std::max(most_used_, used_reserves());
-    if (pass.motion) affine_ = affine_motion(pass.step);
+    if (!pass.again) {
+        // Once a stretch of candidates is in play it stays so until the next build: contacts in it
+        // carry history.
+        most_used_ = std::max(most_used_, used_reserves());
+        planes_.clear();
+        for (std::size_t w = 0; w < world_.planes.size(); ++w) planes_.push_back(wall_plane(w));
+    }
+    if (pass.use == Pass::motion) affine_ = affine_motion(pass.step);
+    if (world_.motion_features().gravity && !weighed_) weigh();
     const kernels::MoveParameters<T> motion = move_parameters(pass.step);
     make_scratch();
-    const auto move = kernels_.move[kernels::variant(world_.motion_features())];
 #pragma omp parallel if (domains_.size() > 1)
     {
-        if (pass.forces) {
+        if (!pass.again) {
 #pragma omp for schedule(static)
             for (std::size_t d = 0; d < domains_.size(); ++d) copy_ghosts(domains_[d]);
         }
@@ -196,67 +186,104 @@ void VectorEngine<T>::run(const Pass& pass) {
         for (std::size_t d = 0; d < domains_.size(); ++d) {
             Domain<T>& domain = domains_[d];
             if (d != coming) touch(domain);
-            // Threads mostly take turns.
-            coming = pass.forces ? d + team : domains_.size();
-            // Where nobody looks at the loads they live in this core's cache only.
-            Aligned<kernels::SphereLoad<T>>& loads =
-                pass.forces && pass.motion ? scratch.loads : domain.loads;
-            if (pass.forces)
-                domain_forces(domain, coming < domains_.size() ? &domains_[coming] : nullptr,
-                              pass.sums, loads, scratch);
-            if (pass.motion)
-                domain.motion = move(domain.records.data(), loads.data(), domain.columns(), motion,
-                                     domain.ghost_begin());
+            coming = d + team;  // threads mostly take turns
+            find_forces(domain, coming < domains_.size() ? &domains_[coming] : nullptr, pass,
+                        scratch);
+            use_loads(domain, scratch.loads, pass, motion);
         }
     }
     collect(pass);
 }
 
 template <class T>
-void VectorEngine<T>::copy_ghosts(Domain<T>& domain) {
-    kernels::SphereRecord<T>* ghost = domain.records.data() + domain.ghost_begin();
-    const auto& homes = domain.ghost_homes;
-    constexpr std::size_t ahead = 16;  // they lie anywhere: memory is asked for several at a time
-    for (std::size_t g = 0; g < homes.size(); ++g) {
-        if (g + ahead < homes.size()) {
-            __builtin_prefetch(homes[g + ahead]);
-            __builtin_prefetch(ghost + g + ahead, 1);
-        }
-        ghost[g] = *homes[g];
+void VectorEngine<T>::use_loads(Domain<T>& domain, const Aligned<kernels::SphereLoad<T>>& loads,
+                                const Pass& pass, const kernels::MoveParameters<T>& motion) {
+    if (pass.use == Pass::motion) {
+        const auto move = kernels_.move[kernels::variant(world_.motion_features())];
+        domain.motion = move(domain.records.data(), loads.data(), domain.columns(built_.position),
+                             motion, domain.ghost_begin());
+        return;
+    }
+    domain.resultant_sum = 0;
+    for (std::size_t k = 0; k < domain.own; ++k) {
+        const Vec3 force = vec3(loads[k].force) + mass_of(domain, k) * world_.scene.gravity;
+        domain.resultant_sum += force.norm();
+        if (pass.use != Pass::columns) continue;
+        const auto i = static_cast<std::size_t>(order_.sphere[domain.first + k]);
+        world_.force.set(i, force);
+        world_.moment.set(i, world_.spheres().radius[i] * vec3(loads[k].moment_per_radius));
     }
 }
 
+namespace {
+
+/// Finds the records of slots that ascend.
 template <class T>
-void VectorEngine<T>::domain_forces(Domain<T>& domain, const Domain<T>* coming, bool sums,
-                                    Aligned<kernels::SphereLoad<T>>& loads, Scratch<T>& scratch) {
-    loads.assign(domain.records.size(), {});
+class HomeWalk {
+  public:
+    explicit HomeWalk(const std::vector<Domain<T>>& domains) : home_(domains.data()) {}
+    const kernels::SphereRecord<T>* operator()(std::int32_t slot) {
+        const auto s = static_cast<std::size_t>(slot);
+        while (s >= home_->first + home_->own) ++home_;
+        return home_->records.data() + (s - home_->first);
+    }
+
+  private:
+    const Domain<T>* home_;
+};
+
+}  // namespace
+
+template <class T>
+void VectorEngine<T>::copy_ghosts(Domain<T>& domain) {
+    kernels::SphereRecord<T>* ghost = domain.records.data() + domain.ghost_begin();
+    const std::vector<std::int32_t>& slots = domain.ghost_slots;
+    constexpr std::size_t ahead = 16;  // they lie anywhere: memory is asked for several at a time
+    HomeWalk<T> home(domains_), coming(domains_);
+    for (std::size_t g = 0; g < slots.size(); ++g) {
+        if (g + ahead < slots.size()) {
+            __builtin_prefetch(coming(slots[g + ahead]));
+            __builtin_prefetch(ghost + g + ahead, 1);
+        }
+        ghost[g] = *home(slots[g]);
+    }
+}
+
+/// Loads of a domain's spheres into scratch.loads. `coming` is read next.
+template <class T>
+void VectorEngine<T>::find_forces(Domain<T>& domain, const Domain<T>* coming, const Pass& pass,
+                                  Scratch<T>& scratch) {
+    scratch.loads.assign(domain.records.size(), {});
     kernels::PairParameters<T> parameters = pair_parameters();
     parameters.counted = static_cast<std::int32_t>(domain.own) * kernels::record_stride<T>;
-    const std::size_t pairs =
-        kernels::variant(kernels::ContactFeatures{world_.has_friction, world_.per_sphere, sums});
+    const auto variant = [&](bool friction) {
+        const kernels::ContactFeatures features{friction, world_.per_sphere, pass.sums};
+        return pass.again ? kernels::variant_again(features) : kernels::variant(features);
+    };
     kernels::Candidates<T> candidates = domain.pairs.view(most_used_, scratch.touching);
     if (coming != nullptr) {
         candidates.coming = reinterpret_cast<const char*>(coming->records.data());
         candidates.coming_bytes = coming->records.size() * sizeof(kernels::SphereRecord<T>);
     }
-    domain.pass =
-        kernels_.pairs[pairs](domain.records.data(), candidates, loads.data(), parameters);
-    domain.wall_loads.assign(world_.planes.size(), {});
-    const std::size_t variant = kernels::variant(
-        kernels::ContactFeatures{world_.has_wall_friction, world_.per_sphere, sums});
+    kernels::PassResult result = kernels_.pairs[variant(world_.has_friction)](
+        domain.records.data(), candidates, scratch.loads.data(), parameters);
+    std::vector<kernels::WallLoad>& wall_loads =
+        pass.again ? scratch.known_wall_loads : domain.wall_loads;
+    wall_loads.assign(planes_.size(), {});
     for (WallList<T>& list : domain.walls) {
         const auto w = static_cast<std::size_t>(list.wall);
-        const kernels::PassResult result = kernels_.wall[variant](
-            domain.records.data(), wall_plane(w), list.list.view(most_used_, scratch.touching),
-            loads.data(), parameters, domain.wall_loads[w]);
-        domain.pass.sums += result.sums;
-        domain.pass.too_deep |= result.too_deep;
+        const kernels::PassResult of_wall = kernels_.wall[variant(world_.has_wall_friction)](
+            domain.records.data(), planes_[w], list.list.view(most_used_, scratch.touching),
+            scratch.loads.data(), parameters, wall_loads[w]);
+        result.sums += of_wall.sums;
+        result.too_deep |= of_wall.too_deep;
     }
+    if (!pass.again) domain.pass = result;
 }
 
 template <class T>
 void VectorEngine<T>::collect(const Pass& pass) {
-    if (pass.forces) {
+    if (!pass.again) {
         world_.begin_wall_loads();
         for (const Domain<T>& domain : domains_) {
             world_.contact_sums += domain.pass.sums;
@@ -266,7 +293,7 @@ void VectorEngine<T>::collect(const Pass& pass) {
         }
         world_.end_evaluation();
     }
-    if (!pass.motion) return;
+    if (pass.use != Pass::motion) return;
     double used2 = 0;
     for (const Domain<T>& domain : domains_) {
         used2 = std::max(used2, domain.motion.used_reserve2);
@@ -295,7 +322,7 @@ kernels::MoveParameters<T> VectorEngine<T>::move_parameters(double step) const {
     p.moment_damping = static_cast<T>(world_.scene.damping.moment);
     p.old_step = static_cast<T>(world_.old_step);
     p.new_step = static_cast<T>(step);
-    // Places are kept relative to the middle of the sample.
+    for (int a = 0; a < 3; ++a) p.middle[a] = middle_[a];
     assign3(p.affine_shift, affine_.shift + affine_.scale.cwiseProduct(middle_));
     assign3(p.affine_scale, affine_.scale);
     return p;

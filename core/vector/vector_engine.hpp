@@ -20,6 +20,7 @@ template <class T>
 struct Scratch {
     Aligned<kernels::SphereLoad<T>> loads;
     Aligned<std::int32_t> touching;
+    std::vector<kernels::WallLoad> known_wall_loads;  ///< of a pass that finds loads again
     ListScratch<T> lists;
 };
 
@@ -43,7 +44,7 @@ class VectorEngine : public Engine {
     std::int64_t candidate_count() const override;
     std::vector<kernels::Pair> neighbours() const override;
     double resultant_sum() override;
-    bool restore(std::int32_t i, std::int32_t j, const Vec3& shear) override;
+    std::size_t restore(std::span<const ContactShear> contacts) override;
     void save(StateWriter& archive) const override;
     void load(StateReader& archive) override;
     bool suspicious() const override { return suspicious_; }
@@ -58,20 +59,29 @@ class VectorEngine : public Engine {
     template <class Archive>
     void serialize(Archive& archive);
 
-    // The pass over the domains: forces, motion, or both.
+    // A pass over the domains. Loads live in a core's cache and nowhere else: who wants them later,
+    // the motion of a step that somebody looked into or the resultants, finds them again.
     struct Pass {
-        bool forces, sums, motion;
-        double step;  // of the motion [s]
+        bool again;                         // forces that have been computed, from what that left
+        bool sums;                          // over contacts
+        enum { sum, columns, motion } use;  // of the loads
+        double step;                        // of the motion [s]
     };
     void run(const Pass& pass);
     void make_scratch() { scratch_.resize(static_cast<std::size_t>(omp_get_max_threads())); }
+    void weigh();
     void copy_ghosts(Domain<T>& domain);
-    void domain_forces(Domain<T>& domain, const Domain<T>* coming, bool sums,
-                       Aligned<kernels::SphereLoad<T>>& loads, Scratch<T>& scratch);
+    void find_forces(Domain<T>& domain, const Domain<T>* coming, const Pass& pass,
+                     Scratch<T>& scratch);
+    void use_loads(Domain<T>& domain, const Aligned<kernels::SphereLoad<T>>& loads,
+                   const Pass& pass, const kernels::MoveParameters<T>& motion);
     void collect(const Pass& pass);
     kernels::PairParameters<T> pair_parameters() const;
     kernels::MoveParameters<T> move_parameters(double step) const;
     kernels::WallPlane<T> wall_plane(std::size_t wall) const;
+    double mass_of(const Domain<T>& domain, std::size_t k) const {
+        return world_.spheres().mass[static_cast<std::size_t>(order_.sphere[domain.first + k])];
+    }
 
     struct ReserveRules {
         double base, most, least;         // of the lists [m]
@@ -101,13 +111,14 @@ class VectorEngine : public Engine {
     kernels::AffineMotion affine_motion(double ahead) const;
 
     // The search (vector_search.inc).
-    double search_reserve(const Domain<T>& domain, std::size_t k, const ReserveRules& rules) const;
+    float search_reserve(const Domain<T>& domain, std::size_t k, const ReserveRules& rules) const;
     void find_neighbours();
-    void find_homes();
     bool renew_neighbours(const Shortage& shortage);
     std::vector<kernels::Pair> pairs_of(std::int32_t slot) const;
 
     Vec3 present_position(std::size_t slot) const;
+    Vec3 searched_position(std::size_t slot) const;
+    SlotRadii radii() const { return {order_.sphere, world_.spheres().radius}; }
     std::size_t domain_of(std::int32_t slot) const;
     TouchingContact pair_contact(const Domain<T>& domain, std::size_t k) const;
     TouchingContact wall_contact(const Domain<T>& domain, const WallList<T>& list,
@@ -115,16 +126,16 @@ class VectorEngine : public Engine {
 
     const kernels::VectorKernels<T>& kernels_;
     SpatialOrder order_;
-    std::vector<std::int32_t> slot_of_;  // of each sphere
     std::vector<Domain<T>> domains_;
-    std::vector<Scratch<T>> scratch_;  // of each thread
+    std::vector<Scratch<T>> scratch_;            // of each thread
+    std::vector<kernels::WallPlane<T>> planes_;  // at the last force evaluation
 
     BuiltState built_;
     struct {
-        Vec3Column position;      // centres at the last search, by slot [m]
-        Column<double> reserve;   // by slot [m]
-        std::vector<Box> boxes;   // of each domain: what its spheres could reach [m]
-        std::vector<Vec3> walls;  // their points [m]
+        Column<std::array<float, 3>> moved;  // since the last search, by slot [m]
+        Column<float> reserve;               // by slot [m]
+        std::vector<Box> boxes;              // of each domain: what its spheres could reach [m]
+        std::vector<Vec3> walls;             // their points [m]
     } searched_;
     Vec3 middle_ = Vec3::Zero(), sample_size_ = Vec3::Zero();  // of the spheres' centres [m]
     double smallest_radius_ = 0;                               // [m]
@@ -134,6 +145,7 @@ class VectorEngine : public Engine {
     double reach_per_reserve_ = 0;  // largest (radius + reserve)/reserve [-]
     double most_used_ = 0;          // of any reserve since the build [-]
     bool stale_ = true, suspicious_ = false;
+    bool weighed_ = false;  // the bodies know their masses
     std::int64_t builds_ = 0, searches_ = 0, renewals_ = 0;
 };
 

@@ -54,10 +54,49 @@ struct Kick {
     }
 };
 
-/// A column of BodyColumns from sphere k on.
+/// A padded column of BodyColumns from sphere k on.
 template <class T>
 HWY_INLINE Lane<T> of_bodies(const T* column, std::size_t k) {
     return hn::Load(Tag<T>(), column + k);
+}
+
+/// Numbers that follow each other in memory less `origin`, rounded to T after that.
+template <class T>
+HWY_INLINE Lane<T> load_relative(const double* at, double origin) {
+#if HWY_TARGET == HWY_SCALAR
+    return set<T>(static_cast<T>(*at - origin));
+#else
+    const Tag<T> d;
+    if constexpr (sizeof(T) == 8) {
+        return hn::Sub(hn::LoadU(d, at), set<T>(origin));
+    } else {
+        const hn::Half<Tag<T> > half;
+        const hn::Rebind<double, decltype(half)> wide;
+        const auto from = hn::Set(wide, origin);
+        const auto low = hn::Sub(hn::LoadU(wide, at), from);
+        const auto high = hn::Sub(hn::LoadU(wide, at + lanes<T> / 2), from);
+        return hn::Combine(d, hn::DemoteTo(half, high), hn::DemoteTo(half, low));
+    }
+#endif
+}
+
+/// Centres of spheres k, k + 1, ... when the lists were built, from the middle of the sample.
+template <class T>
+HWY_INLINE Lane3<T> built_places(const BodyColumns<T>& bodies, const double (&middle)[3],
+                                 std::size_t k) {
+    constexpr std::size_t n = lanes<T>;
+    if (k + n <= bodies.own)
+        return {load_relative<T>(bodies.x + k, middle[0]),
+                load_relative<T>(bodies.y + k, middle[1]),
+                load_relative<T>(bodies.z + k, middle[2])};
+    double place[3][n] = {};
+    for (std::size_t l = 0; k + l < bodies.own; ++l) {
+        place[0][l] = bodies.x[k + l];
+        place[1][l] = bodies.y[k + l];
+        place[2][l] = bodies.z[k + l];
+    }
+    return {load_relative<T>(place[0], middle[0]), load_relative<T>(place[1], middle[1]),
+            load_relative<T>(place[2], middle[2])};
 }
 
 template <class T, bool Gravity, bool Damping, bool Rotation, bool Ledger>
@@ -130,9 +169,10 @@ MoveResult move_records(SphereRecord<T>* records, const SphereLoad<T>* loads,
         const auto way2 = hn::Mul(hn::Mul(step, step), dot(v, v));
         const auto half = hn::Mul(set<T>(T(0.5)), radius);
         sane = hn::And(sane, hn::Le(way2, hn::Mul(half, half)));
-        const Lane3<T> affine{hn::MulAdd(scale.x, of_bodies(bodies.x, k), shift.x),
-                              hn::MulAdd(scale.y, of_bodies(bodies.y, k), shift.y),
-                              hn::MulAdd(scale.z, of_bodies(bodies.z, k), shift.z)};
+        const Lane3<T> place = built_places<T>(bodies, p.middle, k);
+        const Lane3<T> affine{hn::MulAdd(scale.x, place.x, shift.x),
+                              hn::MulAdd(scale.y, place.y, shift.y),
+                              hn::MulAdd(scale.z, place.z, shift.z)};
         const Lane3<T> beyond = u - affine;
         const auto share = of_bodies(bodies.inverse_reserve, k);
         used = hn::Max(used, hn::Mul(dot(beyond, beyond), hn::Mul(share, share)));

@@ -160,7 +160,7 @@ HWY_INLINE void motion_batch(const PairCall<T>& call, PairBatch<T>& batch) {
 }
 
 /// Third stage: forces. Of pairs that do not touch they are zero, and their history is gone.
-template <class T, bool Friction, bool Sums>
+template <class T, bool Friction, bool Sums, bool Again>
 HWY_INLINE void force_batch(const PairCall<T>& call, PairBatch<T>& batch, LaneSums<T>& sums) {
     const PairLanes<T>& pair = batch.pair;
     const auto fn = hn::Mul(batch.kn, pair.overlap);  // Eq. (3a)
@@ -171,15 +171,17 @@ HWY_INLINE void force_batch(const PairCall<T>& call, PairBatch<T>& batch, LaneSu
         sums.add_normal(counted, fn, pair.overlap);
         sums.contacts += __builtin_popcount(batch.touching & bits_of<T>(counted));
     }
-    if constexpr (Friction) {
+    // The force on the centres does the work of the spring, whose lever arms are the radii.
+    const auto lever = hn::Mul(pair.reach, pair.inverse_distance);
+    if constexpr (Again) {
+        batch.force = plus_scaled(batch.force, lever, batch.shear);
+    } else if constexpr (Friction) {
         const ShearLanes<T> spring =
             load_shear<T, Sums>(batch.approach.motion, batch.approach.gap_before, pair.overlap,
                                 hn::Mul(set<T>(call.parameters.stiffness_ratio), batch.kn),
                                 hn::Mul(batch.friction, fn));
         batch.shear = spring.shear;
-        // The force on the centres does the work of the spring, whose lever arms are the radii.
-        batch.force =
-            plus_scaled(batch.force, hn::Mul(pair.reach, pair.inverse_distance), spring.shear);
+        batch.force = plus_scaled(batch.force, lever, spring.shear);
         if constexpr (Sums) sums.add_shear(counted, spring);
     }
 }
@@ -194,17 +196,18 @@ HWY_INLINE void load_batch(const PairCall<T>& call, const PairBatch<T>& batch) {
 }
 
 /// All stages but the first, of `count` batches.
-template <class T, bool Friction, bool Sums>
+template <class T, bool Friction, bool Sums, bool Again>
 HWY_INLINE void finish_batches(const PairCall<T>& call, PairBatch<T>* batches, std::size_t count,
                                LaneSums<T>& sums) {
-    if constexpr (Friction)
+    if constexpr (Friction && !Again)
         for (std::size_t q = 0; q < count; ++q) motion_batch<T>(call, batches[q]);
-    for (std::size_t q = 0; q < count; ++q) force_batch<T, Friction, Sums>(call, batches[q], sums);
+    for (std::size_t q = 0; q < count; ++q)
+        force_batch<T, Friction, Sums, Again>(call, batches[q], sums);
     for (std::size_t q = 0; q < count; ++q) load_batch<T, Friction>(call, batches[q]);
 }
 
 /// Candidates that are close: one batch after the other, history in place.
-template <class T, bool Friction, bool PerSphere, bool Sums>
+template <class T, bool Friction, bool PerSphere, bool Sums, bool Again>
 HWY_INLINE void close_forces(const PairCall<T>& call, bool& too_deep, LaneSums<T>& sums,
                              PassResult& result) {
     constexpr std::size_t n = lanes<T>;
@@ -244,8 +247,8 @@ HWY_INLINE void close_forces(const PairCall<T>& call, bool& too_deep, LaneSums<T
                 c.touching[k / most_lanes] | batch.touching << (k % most_lanes));
             result.contacts += __builtin_popcount(batch.touching);
         }
-        finish_batches<T, Friction, Sums>(call, batches, count, sums);
-        if constexpr (Friction)
+        finish_batches<T, Friction, Sums, Again>(call, batches, count, sums);
+        if constexpr (Friction && !Again)
             for (std::size_t q = 0; q < count; ++q) {
                 const Lane3<T>& shear = batches[q].shear;
                 T* history = c.history + in_block(first + q * n, 0, history_size);
@@ -289,7 +292,7 @@ HWY_INLINE std::size_t find_touching(const PairCall<T>& call) {
 }
 
 /// The candidates picked out by find_touching().
-template <class T, bool Friction, bool PerSphere, bool Sums>
+template <class T, bool Friction, bool PerSphere, bool Sums, bool Again>
 HWY_INLINE void picked_forces(const PairCall<T>& call, bool& too_deep, LaneSums<T>& sums,
                               PassResult& result) {
     constexpr std::size_t n = lanes<T>;
@@ -322,8 +325,8 @@ HWY_INLINE void picked_forces(const PairCall<T>& call, bool& too_deep, LaneSums<
             {hn::Load(d, separation[0]), hn::Load(d, separation[1]), hn::Load(d, separation[2]),
              hn::Load(d, separation[3])},
             batch, too_deep);
-        finish_batches<T, Friction, Sums>(call, &batch, 1, sums);
-        if constexpr (Friction) {
+        finish_batches<T, Friction, Sums, Again>(call, &batch, 1, sums);
+        if constexpr (Friction && !Again) {
             hn::Store(batch.shear.x, d, history[0]);
             hn::Store(batch.shear.y, d, history[1]);
             hn::Store(batch.shear.z, d, history[2]);
@@ -335,14 +338,14 @@ HWY_INLINE void picked_forces(const PairCall<T>& call, bool& too_deep, LaneSums<
     }
 }
 
-template <class T, bool Friction, bool PerSphere, bool Sums>
+template <class T, bool Friction, bool PerSphere, bool Sums, bool Again>
 PassResult pair_forces(const SphereRecord<T>* records, Candidates<T> c, SphereLoad<T>* loads,
                        const PairParameters<T>& p) {
     PassResult result;
     const PairCall<T> call{records, c, loads, p};
     LaneSums<T> sums;
-    close_forces<T, Friction, PerSphere, Sums>(call, result.too_deep, sums, result);
-    picked_forces<T, Friction, PerSphere, Sums>(call, result.too_deep, sums, result);
+    close_forces<T, Friction, PerSphere, Sums, Again>(call, result.too_deep, sums, result);
+    picked_forces<T, Friction, PerSphere, Sums, Again>(call, result.too_deep, sums, result);
     if constexpr (Sums) result.sums = sums.total();
     return result;
 }

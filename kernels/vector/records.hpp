@@ -56,14 +56,16 @@ SphereLoad<T>& load_of(SphereLoad<T>* loads, std::int32_t entry) {
                                              std::size_t{4} * static_cast<std::uint32_t>(entry));
 }
 
-/// What the motion of a domain's own spheres needs beside their records, a column each.
+/// What the motion of a domain's own spheres needs beside their records, a column each. The first
+/// four are padded to multiples of most_lanes, the others are not.
 template <class T>
 struct BodyColumns {
+    std::size_t own;           ///< how many spheres
     const T* inverse_mass;     ///< of the motion; differs from 1/mass if scaled [1/kg]
     const T* spin_response;    ///< radius over moment of inertia [1/(kg m)]
     const T* mass;             ///< gravitational [kg]
     const T* inverse_reserve;  ///< 1 over what it may move beyond the box's strain [1/m]
-    const T *x, *y, *z;        ///< centre when the lists were built, from the sample's middle [m]
+    const double *x, *y, *z;   ///< centre when the lists were built [m]
 };
 
 /// Where a sphere was when the lists were built: all that makes two of them neighbours.
@@ -156,6 +158,7 @@ struct MoveParameters {
     T moment_damping;   ///< alpha [-]
     T old_step;         ///< h_old [s]
     T new_step;         ///< h_new [s]
+    double middle[3];   ///< of the sample; what follows is relative to it [m]
     T affine_shift[3];  ///< of the box since the lists were built, at the end of the step [m]
     T affine_scale[3];  ///< [-]
 };

@@ -21,14 +21,18 @@ const VectorKernels<T>& vector_kernels() {
     static const VectorKernels<T> table = []<std::size_t... V, std::size_t... M>(
         std::index_sequence<V...>, std::index_sequence<M...>) {
         VectorKernels<T> t{};
-        ((t.pairs[V] = pair_forces<T, (V & 1) != 0, (V & 2) != 0, (V & 4) != 0>), ...);
-        ((t.wall[V] = wall_forces<T, (V & 1) != 0, (V & 2) != 0, (V & 4) != 0>), ...);
+        ((t.pairs[V] = pair_forces < T, (V & 1) != 0, (V & 2) != 0, (V & 4) != 0,
+          (V & 8) != 0 && (V & 1) != 0 >),
+         ...);
+        ((t.wall[V] = wall_forces < T, (V & 1) != 0, (V & 2) != 0, (V & 4) != 0,
+          (V & 8) != 0 && (V & 1) != 0 >),
+         ...);
         ((t.move[M] = move_records<T, (M & 1) != 0, (M & 2) != 0, (M & 4) != 0, (M & 8) != 0>),
          ...);
         t.place_neighbours = place_neighbours<T>;
         return t;
     }
-    (std::make_index_sequence<8>(), std::make_index_sequence<16>());
+    (std::make_index_sequence<contact_variants>(), std::make_index_sequence<16>());
     return table;
 }
 

@@ -20,7 +20,7 @@ double wall_shear_stiffness(double radius, double k, const WallPlane<T>& wall,
     return a > 0 && b > 0 ? radius * a * b / (a + b) : 0.0;
 }
 
-template <class T, bool Friction, bool PerSphere, bool Sums>
+template <class T, bool Friction, bool PerSphere, bool Sums, bool Again>
 PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall, Candidates<T> c,
                        SphereLoad<T>* loads, const PairParameters<T>& p, WallLoad& total) {
     constexpr std::size_t n = lanes<T>;
@@ -66,12 +66,14 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
                 touching, PerSphere ? contact_stiffness<T>(u.w, hn::Add(v.w, wall_compliance))
                                     : hn::Mul(u.w, uniform_kn));
             const auto fn = hn::Mul(kn, overlap);
-            Lane3<T> force = scaled(fn, normal);
+            Lane3<T> force = scaled(fn, normal), shear{zero, zero, zero};
             if constexpr (Friction) {
-                const Lane3<T> velocity = wall_velocity - v.xyz();
                 T* history = c.history + in_block(k, 0, history_size);
-                const Lane3<T> before{hn::Load(d, history), hn::Load(d, history + most_lanes),
-                                      hn::Load(d, history + 2 * most_lanes)};
+                shear = {hn::Load(d, history), hn::Load(d, history + most_lanes),
+                         hn::Load(d, history + 2 * most_lanes)};
+            }
+            if constexpr (Friction && !Again) {
+                const Lane3<T> velocity = wall_velocity - v.xyz(), before = shear;
                 const TangentialLanes<T> motion =
                     plane_motion<T>(outward, u.w, velocity, w.xyz(), before, step);
                 const auto gap_before = hn::MulSub(step, dot(velocity, normal), overlap);
@@ -86,18 +88,22 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
                 const ShearLanes<T> spring =
                     load_shear<T, Sums>(motion, gap_before, overlap, ks, hn::Mul(friction, fn));
                 // One that has just opened keeps its spring for the ledger, below.
+                T* history = c.history + in_block(k, 0, history_size);
                 hn::Store(hn::IfThenElse(touching, spring.shear.x, before.x), d, history);
                 hn::Store(hn::IfThenElse(touching, spring.shear.y, before.y), d,
                           history + most_lanes);
                 hn::Store(hn::IfThenElse(touching, spring.shear.z, before.z), d,
                           history + 2 * most_lanes);
-                const Lane3<T> shear{hn::IfThenElseZero(touching, spring.shear.x),
-                                     hn::IfThenElseZero(touching, spring.shear.y),
-                                     hn::IfThenElseZero(touching, spring.shear.z)};
+                shear = spring.shear;
+                if constexpr (Sums) sums.add_shear(touching, spring);
+            }
+            if constexpr (Friction) {
+                shear = {hn::IfThenElseZero(touching, shear.x),
+                         hn::IfThenElseZero(touching, shear.y),
+                         hn::IfThenElseZero(touching, shear.z)};
                 force = force + shear;
                 const Lane3<T> moment = cross(outward, shear);  // per radius
                 add4<T>({moment.x, moment.y, moment.z, zero}, load, 4);
-                if constexpr (Sums) sums.add_shear(touching, spring);
             }
             add4<T>({force.x, force.y, force.z, hn::IfThenElseZero(touching, one)}, load, 0);
             sum = sum + force;

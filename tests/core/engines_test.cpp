@@ -136,12 +136,12 @@ TEST(CandidateList, KeepsHistoryThroughBuildsAndStretches) {
         Proposals p;
         p.resize(stretch.size(), 99);
         for (std::size_t k = 0; k < stretch.size(); ++k) {
-            p.a[k] = static_cast<std::int32_t>(k);
-            p.b[k] = p.a[k] + 1;
+            p.b[k] = static_cast<std::int32_t>(k) + 1;
             p.stretch[k] = stretch[k];
         }
         return p;
     };
+    const std::array<std::int32_t, 6> firsts{0, 1, 2, 3, 4, 5};
     // Component c of the separation of proposal k is k + c/8.
     Aligned<float> separation(kernels::separation_size * kernels::most_lanes);
     for (std::size_t k = 0; k < 6; ++k)
@@ -161,7 +161,7 @@ TEST(CandidateList, KeepsHistoryThroughBuildsAndStretches) {
         return found;
     };
     Proposals now = proposals({8, 8, 0, 1, 8, 0});
-    list.build(now, separation, 99, {});
+    list.build(firsts, now, separation, 99, {});
     EXPECT_EQ(sources(), (std::vector<int>{2, 5, 3}));
     EXPECT_EQ(list.a.back(), 99 * kernels::record_stride<float>) << "no padding at the end";
     for (std::size_t k : {1u, 2u}) {  // 5 and 3 touch
@@ -174,7 +174,7 @@ TEST(CandidateList, KeepsHistoryThroughBuildsAndStretches) {
     EXPECT_TRUE(kept[0].proposal == 3 && kept[1].proposal == 5);
     EXPECT_TRUE(kept[0].shear[0] == 3.0f && kept[1].shear[0] == 5.0f);
     now = proposals({8, 0, 8, 0, 2, 7});
-    list.build(now, separation, 99, kept);
+    list.build(firsts, now, separation, 99, kept);
     EXPECT_EQ(sources(), (std::vector<int>{1, 3, 4, 5}));
     for (std::size_t k = 0; k < 4; ++k) {
         // 5 is in the last stretch: it has come apart.
@@ -189,7 +189,7 @@ TEST(CandidateList, KeepsHistoryThroughBuildsAndStretches) {
     EXPECT_EQ(kept[0].proposal, 3);
     // Proposals numbered anew: 3 is 0 now.
     kept[0].proposal = 0;
-    list.build(proposals({0, 0, 8, 8, 8, 0}), separation, 99, kept);
+    list.build(firsts, proposals({0, 0, 8, 8, 8, 0}), separation, 99, kept);
     EXPECT_EQ(sources(), (std::vector<int>{0, 1, 5}));
     EXPECT_EQ(list.shear(0, 0), 3.0f);
     EXPECT_TRUE(list.touches(0));

@@ -129,7 +129,7 @@ double motion_energy(const Simulation& sim) {
     double sum = 0;
     for (std::size_t i = 0; i < sim.spheres().size(); ++i)
         sum += 0.5 * sim.spheres().mass[i] * sim.spheres().velocity[i].squaredNorm() +
-               0.5 * sim.spheres().spin[i].squaredNorm() / sim.inverse_inertia()[i];
+               0.5 * sim.spheres().spin[i].squaredNorm() / sim.inverse_inertia(i);
     return sum;
 }
 

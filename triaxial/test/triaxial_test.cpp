@@ -44,14 +44,14 @@ core::Scene make_scene(Sample sample, const Config& config) {
 core::Simulation make_simulation(Sample sample, const Config& config,
                                  const kernels::KernelTable& kernels, const std::string& name,
                                  const core::SimulationOptions& options) {
-    const std::vector<Sample::ContactShear> contacts = std::move(sample.contacts);
+    const std::vector<core::ContactShear> contacts = std::move(sample.contacts);
     core::Scene scene = make_scene(std::move(sample), config);
     core::check_start(scene, name);
     core::Simulation simulation(std::move(scene), kernels, options);
     if (contacts.empty()) return simulation;
     simulation.compute_forces();
     // One that just so touched may be apart by round-off: it carried next to nothing.
-    for (const auto& [i, j, shear] : contacts) simulation.restore_shear(i, j, shear);
+    simulation.restore_shear(contacts);
     return simulation;
 }
 

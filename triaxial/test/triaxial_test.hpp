@@ -15,15 +15,10 @@ namespace grainfield::triaxial {
 
 /// The sample as the test starts with it: spheres with their properties, and its box.
 struct Sample {
-    /// Shear force on sphere i of its contact with sphere j, or with wall -1 - j [N].
-    struct ContactShear {
-        std::int32_t i = 0, j = 0;
-        Vec3 shear = Vec3::Zero();
-    };
-
     core::ParticleStore spheres;
     core::Box box;
-    std::vector<ContactShear> contacts = {};  ///< that carry a shear force when the test starts
+    std::vector<core::ContactShear> contacts =
+        {};  ///< that carry a shear force when the test starts
 };
 
 struct TestResult {
