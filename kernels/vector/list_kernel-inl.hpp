@@ -7,7 +7,7 @@
 #define GRAINFIELD_LIST_KERNEL_INL
 #endif
 
-#include "kernels/vector/lanes-inl.hpp"
+#include "kernels/vector/blocks-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainfield::kernels::HWY_NAMESPACE {

@@ -8,7 +8,7 @@
 #define GRAINFIELD_MOVE_KERNEL_INL
 #endif
 
-#include "kernels/vector/lanes-inl.hpp"
+#include "kernels/vector/record_lanes-inl.hpp"
 #include "kernels/vector/vector_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();

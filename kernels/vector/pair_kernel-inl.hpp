@@ -11,6 +11,7 @@
 #include <algorithm>
 
 #include "kernels/vector/law-inl.hpp"
+#include "kernels/vector/record_lanes-inl.hpp"
 #include "kernels/vector/vector_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
