@@ -49,10 +49,12 @@ void CandidateList<T>::keep_by_record(std::vector<KeptContact<T>>& kept) const {
 }
 
 template <class T>
-void CandidateList<T>::build(std::span<const std::int32_t> firsts, const Proposals& proposals,
+void CandidateList<T>::build(std::span<const std::int32_t> firsts, Proposals& proposals,
                              const Aligned<T>& separations, std::int32_t idle,
                              std::span<const KeptContact<T>> kept) {
     using kernels::history_size, kernels::in_block, kernels::separation_size;
+    for (const KeptContact<T>& contact : kept)
+        proposals.stretch[static_cast<std::size_t>(contact.proposal)] = 0;
     // Counting sort by stretch; no branches, which nobody could foresee. Those that are no
     // candidates come last and are dropped: they have room to be written to.
     std::array<std::size_t, kernels::stretches + 2> first{};
@@ -76,12 +78,8 @@ void CandidateList<T>::build(std::span<const std::int32_t> firsts, const Proposa
             separation[in_block(k, c, separation_size)] =
                 separations[in_block(p, c, separation_size)];
         if (contact == kept.end() || static_cast<std::size_t>(contact->proposal) != p) continue;
-        // Beyond the first stretch a pair is apart by now: what it carried is gone, and nobody
-        // would look at it before it is in play.
-        if (stretch == 0) {
-            for (std::size_t c = 0; c < history_size; ++c) shear(k, c) = contact->shear[c];
-            set_touching(k);
-        }
+        for (std::size_t c = 0; c < history_size; ++c) shear(k, c) = contact->shear[c];
+        set_touching(k);
         ++contact;
     }
     for (std::size_t k = count(); k < size; ++k) {

@@ -72,9 +72,10 @@ struct CandidateList {
     /// The same where a proposal's place is the number of its first record.
     void keep_by_record(std::vector<KeptContact<T>>& kept) const;
     /// Replaces the list by those proposals that are candidates; `firsts` are their first records,
-    /// `separation` of each is in blocks. Contacts in `kept` have their history there if they are
-    /// in the first stretch; padding gets the record `idle`.
-    void build(std::span<const std::int32_t> firsts, const Proposals& proposals,
+    /// `separation` of each is in blocks. Those in `kept` have their history there and are of the
+    /// first stretch, however far apart they are by now: a spring that is gone has to be accounted
+    /// for. Padding gets the record `idle`.
+    void build(std::span<const std::int32_t> firsts, Proposals& proposals,
                const Aligned<T>& separation, std::int32_t idle,
                std::span<const KeptContact<T>> kept);
     /// The candidates that can touch while no more than `used` of any reserve is used up.

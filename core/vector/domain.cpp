@@ -141,6 +141,34 @@ void build_pair_list(Domain<T>& domain, const BuiltState& state, const SlotRadii
     domain.pairs.build(scratch.firsts, near, scratch.separation, domain.idle(), kept);
 }
 
+namespace {
+
+/// Proposes all spheres of a domain as candidates of a wall; false if none can meet it before the
+/// next lists.
+template <class T>
+bool propose_to_wall(const Domain<T>& domain, const BuiltState& state, const SlotRadii& radii,
+                     const Wall& wall, ListScratch<T>& scratch) {
+    Proposals& near = scratch.near_wall;
+    near.resize(domain.own, domain.idle());
+    resize_list(scratch.separation, kernels::separation_size * near.b.size());
+    const double offset = wall.normal.dot(wall.point);
+    bool any = false;
+    for (std::size_t k = 0; k < domain.own; ++k) {
+        const std::size_t slot = domain.first + k;
+        const double gap = radii[slot] + offset - wall.normal.dot(state.position[slot]);
+        const double room = double{state.reserve[slot]} + state.wall_reserve;
+        near.b[k] = static_cast<std::int32_t>(k);
+        for (std::size_t c = 0; c < kernels::separation_size; ++c)
+            scratch.separation[kernels::in_block(k, c, kernels::separation_size)] =
+                c == kernels::gap_component ? static_cast<T>(gap) : T(0);
+        near.stretch[k] = gap < -room ? std::uint8_t{kernels::stretches} : stretch_of(-gap / room);
+        any |= gap >= -room;
+    }
+    return any;
+}
+
+}  // namespace
+
 template <class T>
 void build_wall_lists(Domain<T>& domain, const BuiltState& state, const SlotRadii& radii,
                       std::span<const Wall> walls, ListScratch<T>& scratch) {
@@ -148,26 +176,9 @@ void build_wall_lists(Domain<T>& domain, const BuiltState& state, const SlotRadi
     domain.walls.clear();
     for (std::size_t w = 0; w < walls.size(); ++w) {
         const Vec3& n = walls[w].normal;
-        const double offset = n.dot(walls[w].point);
         const Vec3 nearest = (n.array() < 0).select(domain.centres.upper, domain.centres.lower);
-        if (offset - n.dot(nearest) < -(domain.largest_reach + state.wall_reserve)) continue;
-        Proposals& near = scratch.near_wall;
-        near.resize(domain.own, domain.idle());
-        resize_list(scratch.separation, kernels::separation_size * near.b.size());
-        bool any = false;
-        for (std::size_t k = 0; k < domain.own; ++k) {
-            const std::size_t slot = domain.first + k;
-            const double gap = radii[slot] + offset - n.dot(state.position[slot]);
-            const double room = double{state.reserve[slot]} + state.wall_reserve;
-            near.b[k] = static_cast<std::int32_t>(k);
-            for (std::size_t c = 0; c < kernels::separation_size; ++c)
-                scratch.separation[kernels::in_block(k, c, kernels::separation_size)] =
-                    c == kernels::gap_component ? static_cast<T>(gap) : T(0);
-            near.stretch[k] =
-                gap < -room ? std::uint8_t{kernels::stretches} : stretch_of(-gap / room);
-            any |= gap >= -room;
-        }
-        if (!any) continue;
+        if (n.dot(walls[w].point - nearest) < -(domain.largest_reach + state.wall_reserve))
+            continue;
         const auto wall = static_cast<std::int32_t>(w);
         WallList<T> made{wall, {}};
         std::vector<KeptContact<T>>& kept = scratch.kept;
@@ -177,6 +188,8 @@ void build_wall_lists(Domain<T>& domain, const BuiltState& state, const SlotRadi
                 made = std::move(before);
                 made.list.keep_by_record(kept);
             }
+        if (!propose_to_wall(domain, state, radii, walls[w], scratch) && kept.empty()) continue;
+        Proposals& near = scratch.near_wall;
         made.list.build(near.b, near, scratch.separation, domain.idle(), kept);
         domain.walls.push_back(std::move(made));
     }
