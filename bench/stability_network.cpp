@@ -37,7 +37,7 @@ void set_stiffness(core::ParticleStore& s, double contrast) {
 /// depend on mass. Returns true if the unbalanced force ratio fell to complete rest and stayed
 /// there: with few contacts a sphere, some equilibria buckle.
 bool come_to_rest(core::Simulation& simulation) {
-    constexpr int look_interval = 500, most_looks = 40, calm_looks = 8;
+    constexpr int look_interval = 500, most_looks = 200, calm_looks = 8;
     const core::Damping damping = simulation.scene().damping;
     simulation.set_damping({0.7, 0.7});
     simulation.compute_forces();
@@ -114,6 +114,8 @@ core::Simulation reduced(const core::Simulation& simulation, const std::vector<s
 
 core::Simulation still_network(core::Scene scene, double contrast) {
     constexpr int most_rounds = 30;
+    constexpr double least_left = 0.2;  // of all spheres: less is another sample [-]
+    const auto all = static_cast<double>(scene.spheres.size());
     set_stiffness(scene.spheres, contrast);
     core::Simulation simulation(std::move(scene), double_kernels());
     core::Monitor silent;
@@ -124,6 +126,7 @@ core::Simulation still_network(core::Scene scene, double contrast) {
         const bool rests = come_to_rest(simulation);
         const std::vector<std::size_t> kept = load_bearing(simulation);
         if (rests && kept.size() == simulation.size()) return simulation;
+        if (static_cast<double>(kept.size()) < least_left * all) break;
         simulation = reduced(simulation, kept);
     }
     driver.fail("the network does not come to rest");

@@ -80,7 +80,8 @@ void FrequencyEstimator::assemble(const Simulation& simulation) {
     springs_ = {};  // frees those of the last estimate first
     springs_ = contact_springs(simulation);
     const std::vector<double> sum = stiffness_on_mass(simulation, springs_);
-    const double limit = softest_part * *std::max_element(sum.begin(), sum.end());
+    const double largest = sum.empty() ? 0.0 : *std::max_element(sum.begin(), sum.end());
+    const double limit = softest_part * largest;
     std::erase_if(springs_, [&](const ContactSpring& k) {
         return sum[k.i] < limit && (k.j < 0 || sum[k.j] < limit);
     });

@@ -8,6 +8,7 @@
 #endif
 
 #include "kernels/vector/blocks-inl.hpp"
+#include "kernels/vector/records.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainfield::kernels::HWY_NAMESPACE {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/core/test_scenes.hpp"
+#include "tests/larger.hpp"
 
 namespace grainfield::core {
 namespace {
@@ -38,7 +39,7 @@ Closing collapse(const kernels::KernelTable& table, double wh, bool wall_frictio
         sim.advance(step);
         sim.compute_forces();
         result.last = sim.energy();
-        result.error = std::max(result.error, std::abs(result.last.closing() - before));
+        result.error = larger(result.error, std::abs(result.last.closing() - before));
     }
     result.through =
         result.last.friction_work + result.last.damping_work + std::abs(result.last.external_work);

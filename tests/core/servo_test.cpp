@@ -12,6 +12,7 @@
 #include "core/driver.hpp"
 #include "core/measures.hpp"
 #include "tests/core/test_scenes.hpp"
+#include "tests/larger.hpp"
 
 namespace grainfield::core {
 namespace {
@@ -82,7 +83,7 @@ TEST_P(Servo, HoldsTheStressWhileTheLidMovesAndKeepsItsSpeedLimit) {
         });
         for (std::size_t w : {0u, 1u, 4u, 5u}) {
             square += error[w] * error[w] / (4 * n);
-            if (k > n / 10) worst = std::max(worst, std::abs(error[w]));
+            if (k > n / 10) worst = larger(worst, std::abs(error[w]));
         }
     }
     EXPECT_LT(std::sqrt(square), 0.005);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/larger.hpp"
 #include "tests/packing/small_samples.hpp"
 
 namespace grainfield::packing {
@@ -38,7 +39,7 @@ double largest_deviation(const GradingDraw& draw, const Grading& grading) {
     const std::vector<double> achieved = achieved_passing(draw.diameter, grading.sieve_diameter);
     double worst = 0;
     for (std::size_t k = 0; k < achieved.size(); ++k)
-        worst = std::max(worst, std::abs(achieved[k] - grading.passing[k]));
+        worst = larger(worst, std::abs(achieved[k] - grading.passing[k]));
     return worst;
 }
 

@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <thread>
 
+#include "tests/larger.hpp"
 #include "tests/randomfield/field_support.hpp"
 
 namespace grainfield::randomfield {
@@ -137,7 +138,7 @@ TEST(BlockField, SampleCovarianceIsThatOfTheField) {
         double worst_mean = 0.0, worst_covariance = 0.0;
         for (Eigen::Index a = 0; a < 432; ++a) {
             worst_mean =
-                std::max(worst_mean, std::abs(mean[a]) / std::sqrt(draws * covariance(a, a)));
+                larger(worst_mean, std::abs(mean[a]) / std::sqrt(draws * covariance(a, a)));
             for (Eigen::Index b = 0; b <= a; ++b) {
                 const double spread = std::sqrt(
                     (covariance(a, a) * covariance(b, b) + covariance(a, b) * covariance(a, b)) /

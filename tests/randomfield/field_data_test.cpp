@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "core/random.hpp"
+#include "tests/larger.hpp"
 #include "tests/randomfield/field_support.hpp"
 
 namespace grainfield::randomfield {
@@ -227,9 +228,9 @@ TEST_F(FieldData, DrawsHaveTheConditionalMeanAndVariance) {
                 ++known;
                 continue;
             }
-            worst = std::max(worst, std::abs(sum[c]) / std::sqrt(draws * variance[c]));
+            worst = larger(worst, std::abs(sum[c]) / std::sqrt(draws * variance[c]));
             worst =
-                std::max(worst, std::abs(square[c] / variance[c] - draws) / std::sqrt(2.0 * draws));
+                larger(worst, std::abs(square[c] / variance[c] - draws) / std::sqrt(2.0 * draws));
         }
         EXPECT_EQ(known, property == friction ? 1u : 0u);
         EXPECT_LT(worst, 6.6);

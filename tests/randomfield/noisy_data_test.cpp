@@ -9,6 +9,7 @@
 
 #include "randomfield/conditioning.hpp"
 #include "randomfield/noisy_value.hpp"
+#include "tests/larger.hpp"
 #include "tests/randomfield/field_support.hpp"
 #include "tests/randomfield/marginal_support.hpp"
 
@@ -191,7 +192,7 @@ TEST(NoisyData, FieldsHaveTheMomentsOfTheTrueDensity) {
             const Pair pair(gamma, covariance(0, 1, 0), noisy, noisy);
             for (std::size_t c = 0; c < 2; ++c) {
                 const double spread = std::sqrt(pair.variance[c]);
-                worst = std::max(worst, std::abs(two.mean(property)[c] - pair.mean[c]) / spread);
+                worst = larger(worst, std::abs(two.mean(property)[c] - pair.mean[c]) / spread);
                 EXPECT_NEAR(two.variance(property)[c] / pair.variance[c], 1.0, 0.05) << name << at;
             }
             const GaussianSite alone = site_between({0.0, gamma}, sums);
@@ -199,8 +200,8 @@ TEST(NoisyData, FieldsHaveTheMomentsOfTheTrueDensity) {
                 grid, covariance, 0.0,
                 {{property, 0, alone.weighted / alone.precision, 1.0 / alone.precision},
                  {property, 1, alone.weighted / alone.precision, 1.0 / alone.precision}});
-            worst_alone = std::max(worst_alone, std::abs(apart.mean(property)[0] - pair.mean[0]) /
-                                                    std::sqrt(pair.variance[0]));
+            worst_alone = larger(worst_alone, std::abs(apart.mean(property)[0] - pair.mean[0]) /
+                                                  std::sqrt(pair.variance[0]));
         }
     }
     EXPECT_LT(worst, 0.02);

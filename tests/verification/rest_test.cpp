@@ -9,6 +9,7 @@
 #include <cmath>
 #include <complex>
 
+#include "tests/larger.hpp"
 #include "tests/verification/closed_forms.hpp"
 #include "tests/verification/scene_test.hpp"
 
@@ -188,8 +189,8 @@ TEST_P(TurningScene, LoadedShearSpringTurnsWithThePair) {
     for (std::size_t n = 0; n < r.time.size(); ++n) {
         const Motion &i = r.states[n][0], &j = r.states[n][1];
         const Eigen::Vector4cd e = solution(r.time[n]);
-        worst_v = std::max(worst_v, std::abs(tangential(j.v - i.v) - e[1]));
-        worst_p = std::max(worst_p, std::abs(by_spin(i, j) - e[2]));
+        worst_v = larger(worst_v, std::abs(tangential(j.v - i.v) - e[1]));
+        worst_p = larger(worst_p, std::abs(by_spin(i, j) - e[2]));
     }
     Case row{.scene = "turning-pair",
              .quantity = "relative velocity (largest error at any time)",

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/larger.hpp"
 #include "tests/verification/closed_forms.hpp"
 #include "tests/verification/scene_test.hpp"
 
@@ -65,9 +66,9 @@ TEST_P(RollingScene, SlidingToRolling) {
     for (std::size_t k = 0; k < r.time.size(); ++k) {
         const Motion& m = r.states[k][0];
         const double t = r.time[k];
-        worst_v = std::max(worst_v, std::abs(m.v.x() - e.speed(t)));
-        worst_w = std::max(worst_w, std::abs(-radius * m.w.z() - e.surface(t)));
-        worst_sum = std::max(worst_sum, std::abs(m.v.x() - 0.4 * radius * m.w.z() - v0));
+        worst_v = larger(worst_v, std::abs(m.v.x() - e.speed(t)));
+        worst_w = larger(worst_w, std::abs(-radius * m.w.z() - e.surface(t)));
+        worst_sum = larger(worst_sum, std::abs(m.v.x() - 0.4 * radius * m.w.z() - v0));
     }
     Case row{.scene = "sliding-to-rolling",
              .quantity = "v (largest error at any time)",
@@ -138,8 +139,8 @@ TEST_P(RollingScene, Incline) {
         double worst_v = 0, worst_w = 0;
         for (std::size_t k = 0; k < r.time.size(); ++k) {
             const Motion& m = r.states[k][i];
-            worst_v = std::max(worst_v, std::abs(m.v.dot(e.down) - e.speed(r.time[k])));
-            worst_w = std::max(worst_w, std::abs(radius * m.w.dot(axis) - e.surface(r.time[k])));
+            worst_v = larger(worst_v, std::abs(m.v.dot(e.down) - e.speed(r.time[k])));
+            worst_w = larger(worst_w, std::abs(radius * m.w.dot(axis) - e.surface(r.time[k])));
         }
         const bool rolls = std::tan(theta) < 3.5 * e.mu;
         const std::string name = fmt::format("{:.4g} deg ({})", 180 / pi * theta,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/larger.hpp"
 #include "tests/verification/scene_test.hpp"
 
 namespace grainfield::verify {
@@ -139,7 +140,7 @@ TEST_P(SymmetryScene, LocalDampingIsNotObjective) {
     const Change change = change_of(base, other);
     double worst = 0, speed = 0;
     for (std::size_t i = 0; i < base.size(); ++i) {
-        worst = std::max(worst, (other.last(i).v - change.turn * base.last(i).v).norm());
+        worst = larger(worst, (other.last(i).v - change.turn * base.last(i).v).norm());
         speed = std::max(speed, base.last(i).v.norm());
     }
     EXPECT_GT(worst, 1e-3 * speed);
