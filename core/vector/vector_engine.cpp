@@ -62,6 +62,7 @@ void VectorEngine<T>::push() {
             domain.body(spin_response)[k] = static_cast<T>(s.radius[i] * world_.inverse_inertia(i));
         }
     if (weighed_) weigh();
+    ghosts_outdated_ = true;
     if (!world_.has_friction)
         for (Domain<T>& domain : domains_) {
             std::fill(domain.pairs.history.begin(), domain.pairs.history.end(), T(0));
@@ -175,7 +176,7 @@ void VectorEngine<T>::run(const Pass& pass) {
     make_scratch();
 #pragma omp parallel if (domains_.size() > 1)
     {
-        if (!pass.again) {
+        if (!pass.again || ghosts_outdated_) {
 #pragma omp for schedule(static)
             for (std::size_t d = 0; d < domains_.size(); ++d) copy_ghosts(domains_[d]);
         }
@@ -192,6 +193,7 @@ void VectorEngine<T>::run(const Pass& pass) {
             use_loads(domain, scratch.loads, pass, motion);
         }
     }
+    ghosts_outdated_ = false;
     collect(pass);
 }
 

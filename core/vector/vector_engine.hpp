@@ -145,7 +145,8 @@ class VectorEngine : public Engine {
     double reach_per_reserve_ = 0;  // largest (radius + reserve)/reserve [-]
     double most_used_ = 0;          // of any reserve since the build [-]
     bool stale_ = true, suspicious_ = false;
-    bool weighed_ = false;  // the bodies know their masses
+    bool weighed_ = false;         // the bodies know their masses
+    bool ghosts_outdated_ = true;  // of what does not change by motion
     std::int64_t builds_ = 0, searches_ = 0, renewals_ = 0;
 };
 

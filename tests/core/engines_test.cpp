@@ -67,6 +67,40 @@ TEST_P(Engines, ForcesAndMotionAreThoseOfTheReference) {
     }
 }
 
+TEST_P(Engines, PropertiesChangedBetweenForcesAndMotionKeepMomentum) {
+    // Whatever forces move the spheres then, both of a pair feel the same one, across the borders
+    // of domains too.
+    Scene scene = crowd(true);
+    scene.walls.clear();
+    scene.gravity = Vec3::Zero();
+    scene.damping = {0, 0};
+    Simulation sim(std::move(scene), table());
+    const auto momentum = [&] {
+        Vec3 sum = Vec3::Zero();
+        const ParticleStore& s = sim.spheres();
+        for (std::size_t i = 0; i < s.size(); ++i) sum += s.mass[i] * s.velocity[i];
+        return sum;
+    };
+    for (int k = 0; k < 5; ++k) {
+        sim.compute_forces();
+        sim.advance(1e-4);
+    }
+    sim.compute_forces();
+    double impulse = 0, total = 0;  // what goes into the sums
+    for (std::size_t i = 0; i < sim.size(); ++i) {
+        impulse += 1e-4 * sim.resultant(i).norm();
+        total += sim.spheres().mass[i] * sim.spheres().velocity[i].norm();
+    }
+    std::vector<double> stiffness(sim.size()), friction(sim.size(), 0.3);
+    for (std::size_t i = 0; i < sim.size(); ++i)
+        stiffness[i] = test_stiffness * static_cast<double>(1 + i % 7);
+    const Vec3 before = momentum();
+    sim.set_properties(stiffness, friction);
+    sim.advance(1e-4);
+    EXPECT_GT(impulse, 1e-4 * total) << "too few contacts";
+    EXPECT_LT((momentum() - before).norm(), roundoff(10) * (impulse + total));
+}
+
 TEST_P(Engines, WhatAPairGetsDoesNotDependOnOthers) {
     // Vectors hold several pairs, and in float one that turns much goes another way than the rest.
     const double step = 1e-4, gap = 1.99 * test_radius;
