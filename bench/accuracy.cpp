@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -36,6 +37,7 @@ struct Arguments {
     int reference_repeats = 8;
     int workers = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     bool quick = false;
+    int precision = 0;  ///< runs of either precision to compare; 0: the whole plan
 };
 
 /// What is run on each series.
@@ -98,6 +100,22 @@ Plan quick_plan() {
     return plan;
 }
 
+/// Mixed against double precision, all else being the default.
+Plan precision_plan(int repeats) {
+    return {.reference = {.precision = core::Precision::double_}, .cases = {{Setting{}, repeats}}};
+}
+
+/// Difference of the means of a result, and its standard error.
+void print_difference(const char* name, const bench::Deviation& mixed, const bench::Deviation& full,
+                      int repeats) {
+    const double error =
+        std::sqrt((mixed.scatter * mixed.scatter + full.scatter * full.scatter) / repeats);
+    fmt::print(
+        "    {:>4}: mixed less double {:+.2f} +- {:.2f} %; one run scatters by {:.2f} and "
+        "{:.2f} %\n",
+        name, mixed.bias, error, mixed.scatter, full.scatter);
+}
+
 /// References first, they take longest; then repeat after repeat, so that what else the machine
 /// does hits all settings alike.
 std::vector<bench::Task> tasks_of(const Plan& plan, const std::vector<bench::Series>& series,
@@ -147,9 +165,14 @@ void run(const Arguments& arguments) {
     std::vector<bench::Series> series =
         bench::make_series(arguments.sample, arguments.quick ? 0.003 : 0.02, monitor);
     if (arguments.quick) series.resize(1);
-    const Plan plan = arguments.quick ? quick_plan() : full_plan(arguments.repeats);
-    std::vector<bench::Task> tasks = tasks_of(
-        plan, series, arguments.quick ? 2 : arguments.reference_repeats, arguments.repeats);
+    const int precision = arguments.precision;
+    const Plan plan = precision > 0     ? precision_plan(precision)
+                      : arguments.quick ? quick_plan()
+                                        : full_plan(arguments.repeats);
+    std::vector<bench::Task> tasks =
+        precision > 0 ? tasks_of(plan, series, precision, precision)
+                      : tasks_of(plan, series, arguments.quick ? 2 : arguments.reference_repeats,
+                                 arguments.repeats);
     bench::make_runs(tasks, arguments.workers, monitor);
     monitor.finish();
 
@@ -167,6 +190,10 @@ void run(const Arguments& arguments) {
             Case c = gather(tasks, s, setting);
             bench::evaluate(c, reference);
             print_case(c);
+            if (precision > 0) {
+                print_difference("peak", c.peak, ensemble.peak, precision);
+                print_difference("E50", c.E50, ensemble.E50, precision);
+            }
             cases.back().push_back(std::move(c));
         }
         ensembles.push_back(std::move(ensemble));
@@ -181,6 +208,10 @@ void run(const Arguments& arguments) {
     for (std::size_t k = 0; k < series.size(); ++k) {
         all.insert(all.end(), cases[k].begin(), cases[k].end());
         panels.push_back({&series[k], cases[k], &ensembles[k]});
+    }
+    if (precision > 0) {
+        core::write_file_atomically(folder / "accuracy_precision.csv", bench::cases_csv(all));
+        return fmt::print("written to {}\n", folder.string());
     }
     core::write_file_atomically(folder / "accuracy.csv", bench::cases_csv(all));
     core::write_file_atomically(folder / "accuracy_noise.csv", bench::noise_csv(ensembles));
@@ -211,6 +242,10 @@ int main(int argc, char** argv) {
     app.add_option("--workers", arguments.workers, "Runs at a time, one thread each")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
+    app.add_option("--precision", arguments.precision,
+                   "Nothing but so many disturbed runs in mixed and as many in double precision, "
+                   "with the difference of their means")
+        ->check(CLI::Range(2, 1000));
     app.add_flag("--quick", arguments.quick, "A smoke test: few settings, little strain");
     CLI11_PARSE(app, argc, argv);
     try {
