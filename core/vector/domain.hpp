@@ -33,8 +33,9 @@ struct Domain {
 
     // Records: own spheres, padding, ghosts, and one that is idle.
     Aligned<kernels::SphereRecord<T>> records;
-    Aligned<T> bodies;                      ///< of own spheres: columns()
-    std::vector<std::int32_t> ghost_slots;  ///< ascending
+    Aligned<T> bodies;                                         ///< of own spheres: columns()
+    std::vector<std::int32_t> ghost_slots;                     ///< ascending
+    std::vector<const kernels::SphereRecord<T>*> ghost_homes;  ///< where ghosts are copied from
 
     /// All that can become candidates before the next search, ascending by slots: row after row
     /// of the pairs that have one first record. Rows belong to the ghosts whose slots are below

@@ -217,37 +217,17 @@ void VectorEngine<T>::use_loads(Domain<T>& domain, const Aligned<kernels::Sphere
     }
 }
 
-namespace {
-
-/// Finds the records of slots that ascend.
-template <class T>
-class HomeWalk {
-  public:
-    explicit HomeWalk(const std::vector<Domain<T>>& domains) : home_(domains.data()) {}
-    const kernels::SphereRecord<T>* operator()(std::int32_t slot) {
-        const auto s = static_cast<std::size_t>(slot);
-        while (s >= home_->first + home_->own) ++home_;
-        return home_->records.data() + (s - home_->first);
-    }
-
-  private:
-    const Domain<T>* home_;
-};
-
-}  // namespace
-
 template <class T>
 void VectorEngine<T>::copy_ghosts(Domain<T>& domain) {
     kernels::SphereRecord<T>* ghost = domain.records.data() + domain.ghost_begin();
-    const std::vector<std::int32_t>& slots = domain.ghost_slots;
+    const auto& homes = domain.ghost_homes;
     constexpr std::size_t ahead = 16;  // they lie anywhere: memory is asked for several at a time
-    HomeWalk<T> home(domains_), coming(domains_);
-    for (std::size_t g = 0; g < slots.size(); ++g) {
-        if (g + ahead < slots.size()) {
-            __builtin_prefetch(coming(slots[g + ahead]));
+    for (std::size_t g = 0; g < homes.size(); ++g) {
+        if (g + ahead < homes.size()) {
+            __builtin_prefetch(homes[g + ahead]);
             __builtin_prefetch(ghost + g + ahead, 1);
         }
-        ghost[g] = *home(slots[g]);
+        ghost[g] = *homes[g];
     }
 }
 

@@ -113,6 +113,7 @@ class VectorEngine : public Engine {
     // The search (vector_search.inc).
     float search_reserve(const Domain<T>& domain, std::size_t k, const ReserveRules& rules) const;
     void find_neighbours();
+    void find_homes();
     bool renew_neighbours(const Shortage& shortage);
     std::vector<kernels::Pair> pairs_of(std::int32_t slot) const;
 

@@ -85,6 +85,9 @@ template <class T>
 HWY_INLINE Lane3<T> built_places(const BodyColumns<T>& bodies, const double (&middle)[3],
                                  std::size_t k) {
     constexpr std::size_t n = lanes<T>;
+    constexpr std::size_t ahead = 128;  // spheres to ask for early
+    for (const double* column : {bodies.x, bodies.y, bodies.z})
+        for (std::size_t l = 0; l < n; l += 8) __builtin_prefetch(column + k + ahead + l);
     if (k + n <= bodies.own)
         return {load_relative<T>(bodies.x + k, middle[0]),
                 load_relative<T>(bodies.y + k, middle[1]),
