@@ -10,8 +10,8 @@ namespace grainfield::bench {
 struct SpeedPoint {
     std::string isa, precision;
     int threads = 1;
-    double spheres = 0;              ///< [-]
-    double milliseconds = 0;         ///< a step, median [ms]
+    double spheres = 0;            ///< [-]
+    double milliseconds = 0;       ///< a step, median [ms]
     double memory_per_sphere = 0;  ///< [B]
 };
 
