@@ -54,7 +54,6 @@ void ReferenceEngine::save(StateWriter& archive) const {
 
 void ReferenceEngine::load(StateReader& archive) {
     archive(contacts_, max_square_displacement_);
-    push();
 }
 
 }  // namespace grainfield::core

@@ -21,14 +21,9 @@ const VectorKernels<T>& vector_kernels() {
     static const VectorKernels<T> table = []<std::size_t... V, std::size_t... M>(
         std::index_sequence<V...>, std::index_sequence<M...>) {
         VectorKernels<T> t{};
-        ((t.pairs[V] = pair_forces < T, (V & 1) != 0, (V & 2) != 0, (V & 4) != 0,
-          (V & 8) != 0 && (V & 1) != 0 >),
-         ...);
-        ((t.wall[V] = wall_forces < T, (V & 1) != 0, (V & 2) != 0, (V & 4) != 0,
-          (V & 8) != 0 && (V & 1) != 0 >),
-         ...);
-        ((t.move[M] = move_records<T, (M & 1) != 0, (M & 2) != 0, (M & 4) != 0, (M & 8) != 0>),
-         ...);
+        ((t.pairs[V] = pair_forces<T, has(V, 0), has(V, 1), has(V, 2), again<V>>), ...);
+        ((t.wall[V] = wall_forces<T, has(V, 0), has(V, 1), has(V, 2), again<V>>), ...);
+        ((t.move[M] = move_records<T, has(M, 0), has(M, 1), has(M, 2), has(M, 3)>), ...);
         t.place_neighbours = place_neighbours<T>;
         return t;
     }

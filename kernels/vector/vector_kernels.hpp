@@ -48,4 +48,12 @@ constexpr std::size_t variant(MotionFeatures f) {
            (f.ledger ? 8u : 0u);
 }
 
+/// Feature number `bit` of a variant, in the order in which variant() adds them up.
+constexpr bool has(std::size_t variant, unsigned bit) {
+    return (variant >> bit & 1u) != 0;
+}
+/// Whether a variant of the contacts finds loads again; without friction it does all the same.
+template <std::size_t Variant>
+inline constexpr bool again = has(Variant, 3) && has(Variant, 0);
+
 }  // namespace grainfield::kernels

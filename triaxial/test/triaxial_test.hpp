@@ -17,8 +17,8 @@ namespace grainfield::triaxial {
 struct Sample {
     core::ParticleStore spheres;
     core::Box box;
-    std::vector<core::ContactShear> contacts =
-        {};  ///< that carry a shear force when the test starts
+    /// Contacts that carry a shear force when the test starts.
+    std::vector<core::ContactShear> contacts = {};
 };
 
 struct TestResult {
