@@ -138,13 +138,13 @@ class VectorEngine : public Engine {
         std::vector<Box> boxes;              // of each domain: what its spheres could reach [m]
         std::vector<Vec3> walls;             // their points [m]
     } searched_;
-    Vec3 middle_ = Vec3::Zero(), sample_size_ = Vec3::Zero();  // of the spheres' centres [m]
-    double smallest_radius_ = 0;                               // [m]
-    std::vector<Vec3> built_walls_;                            // their points [m]
-    kernels::AffineMotion affine_;  // of the box, as the last motion foresaw it
-    double used_reserve_ = 0;       // largest share of a reserve that motion used [-]
-    double reach_per_reserve_ = 0;  // largest (radius + reserve)/reserve [-]
-    double most_used_ = 0;          // of any reserve since the build [-]
+    Vec3 middle_ = Vec3::Zero();     // of the spheres' centres [m]
+    double smallest_radius_ = 0;     // [m]
+    std::vector<Vec3> built_walls_;  // their points [m]
+    kernels::AffineMotion affine_;   // of the box, as the last motion foresaw it
+    double used_reserve_ = 0;        // largest share of a reserve that motion used [-]
+    double reach_per_reserve_ = 0;   // largest (radius + reserve)/reserve [-]
+    double most_used_ = 0;           // of any reserve since the build [-]
     bool stale_ = true, suspicious_ = false;
     bool weighed_ = false;         // the bodies know their masses
     bool ghosts_outdated_ = true;  // of what does not change by motion

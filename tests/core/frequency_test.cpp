@@ -123,6 +123,25 @@ TEST_P(Frequency, IsZeroWithoutContactsAndThatOfACaughtSphereIsDefined) {
     EXPECT_NEAR(caught_frequency(turning, 0), std::sqrt(7.0 / 4.0) * expected, 1e-12 * expected);
 }
 
+TEST_P(Frequency, SmoothContactsCountBesideRoughOnes) {
+    // A sphere rolls on the rough floor at 3.5 K_s/m; another is caught between smooth walls, at
+    // 2 K_n/m, which is a little more. On the mass, K_n of the one is far less than K_n + 2 K_s of
+    // the other.
+    Scene scene = scene_of(
+        {Ball{.x = Vec3(0.05, 0.0299, 0), .radius = 0.03, .stiffness = 0.108 * test_stiffness},
+         Ball{.x = Vec3(0.05, 1, 0)}},
+        0.5);
+    scene.stiffness_ratio = 1.0;
+    scene.walls = {plane(Vec3::Zero(), Vec3::UnitY(), 0.5, 1.0),
+                   plane(Vec3(1e-3, 0, 0), Vec3::UnitX()),
+                   plane(Vec3(0.099, 0, 0), -Vec3::UnitX())};
+    const double kn = test_radius * test_stiffness / 2;
+    const double rolling = 3.5 * 0.03 * test_stiffness * 0.108 / 1.108 / sphere_mass(0.03);
+    const double caught = 2 * kn / sphere_mass(test_radius);
+    ASSERT_GT(caught, 1.05 * rolling);
+    EXPECT_NEAR(estimate(scene, table()), std::sqrt(caught), 0.005 * std::sqrt(caught));
+}
+
 TEST_P(Frequency, ACaughtSphereIsAsFastAsItsNeighboursAllow) {
     // A light stiff sphere between two soft heavy ones: K_n (1/m + 1/M) of each contact, which is
     // less than between two of its own kind. Bands of 1e-12: both are a few operations.

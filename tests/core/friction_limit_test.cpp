@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -125,6 +126,41 @@ TEST_P(GoneSpring, OfTwoSpheresIsDissipated) {
         ASSERT_EQ(sim.touching_contacts(), 0);
         EXPECT_NEAR(after - before, stored, roundoff(100) * stored);
     }
+}
+
+TEST_P(GoneSpring, OfTwoSpheresThatWereApartIsDissipatedAndForgotten) {
+    // Apart when the lists are built, together, apart, together again, each in one step; all the
+    // while they slide along each other. The force moves them by 1e-7 m in a step.
+    constexpr double reach = test_radius + small_radius, gap = 0.05 * reach;
+    Scene scene = overlapping_pair(-0.05, 1e6, test_stiffness);
+    scene.spheres.velocity.set(1, 1e-4 / step * direction.unitOrthogonal());
+    const double ks = scene.stiffness_ratio * 0.25 * reach * test_stiffness;
+    Simulation sim(std::move(scene), table(), {.skin = 0.4 * test_radius, .ledger = true});
+    sim.compute_forces();
+    const auto turn_back = [&](double way) {
+        sim.add_velocities([&](std::size_t i, const Vec3&) -> Vec3 {
+            return (i == 0 ? -0.5 : 0.5) * way / step * direction;
+        });
+    };
+    turn_back(-1.2 * gap);
+    std::array<double, 2> stored{};
+    for (double& energy : stored) {
+        sim.advance(step);
+        sim.compute_forces();
+        ASSERT_EQ(sim.touching_contacts(), 1);
+        energy = 0.5 * sim.touching()[0].shear.squaredNorm() / ks;
+        EXPECT_GT(energy, 0.0);
+        const double before = slipped(sim);
+        turn_back(2.4 * gap);
+        sim.advance(step);
+        const double after = slipped(sim);
+        ASSERT_EQ(sim.touching_contacts(), 0);
+        EXPECT_NEAR(after - before, energy, roundoff(100) * energy);
+        turn_back(-2.4 * gap);
+    }
+    // The second time some more, as the normal has turned; four times as much with the old spring.
+    EXPECT_NEAR(stored[1], stored[0], 0.5 * stored[0]);
+    EXPECT_EQ(sim.list_builds(), 1);
 }
 
 TEST_P(GoneSpring, OnAWallIsDissipated) {
