@@ -85,8 +85,13 @@ TEST_F(Folder, AnotherCampaignIsRefusedByName) {
     EXPECT_NO_THROW(open(cases("[[montecarlo.case]]\nname = 'other'\n")));
     // Those that were there before are remembered.
     EXPECT_THROW(open(cases("particle.density = 2500\n")), InputError);
-    write("out/campaign.json", "{");
-    EXPECT_THROW(open(cases()), FileError);
+    EXPECT_THAT(message_of<InputError>([&] { open(cases("solver.isa = 'scalar'\n")); }),
+                HasSubstr("there isa = \"auto\""));
+    for (const char* damaged : {"{", "[1]", "{}", "{\"cases\": 1}"}) {
+        write("out/campaign.json", damaged);
+        EXPECT_THAT(message_of<FileError>([&] { open(cases()); }),
+                    HasSubstr("campaign.json: damaged; it is not what a campaign wrote"));
+    }
 }
 
 TEST_F(Folder, MergingTakesRowsOverOnce) {

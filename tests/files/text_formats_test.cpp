@@ -117,6 +117,16 @@ TEST_F(LammpsDataTest, NamesWhatIsWrong) {
     EXPECT_THAT(say(both + "\nVelocities\n\n1 0 0 0\n"), HasSubstr("atom-ID vx vy vz wx wy wz"));
     EXPECT_THAT(say(both + "\nBonds\n\n1 1 1 2\n"),
                 HasSubstr("section 'Bonds': not supported; allowed: Atoms, Velocities"));
+    EXPECT_EQ(say(both + "\nAtoms\n\n3 1 1 2600 0 0 0\n"), "s.data:11: section Atoms stands twice");
+    EXPECT_EQ(say("title\n1 atoms\n\nVelocities\n\n1 0 0 0 0 0 0\n"),
+              "s.data:4: section Velocities must come after Atoms");
+    EXPECT_THAT(say(both + "\nVelocities\n\n0.5 0 0 0 0 0 0\n"),
+                HasSubstr("column atom-ID = 0.5: must be an integer >= 1"));
+    EXPECT_THAT(say("title\n3e9 atoms\n"), HasSubstr("header atoms = 3000000000: must be an"));
+    EXPECT_THAT(say("title\n0 1 2 xlo xhi\n"), HasSubstr("not supported"));
+    EXPECT_THAT(say("title\n0\n"), HasSubstr("header '0': not supported"));
+    EXPECT_THAT(say("title\n0 xlo xhi\n"), HasSubstr("column header = xlo: must be a finite"));
+    EXPECT_EQ(say("title\n1 atoms\n\nMasses\n\n1 1\n"), "s.data:6: section Atoms is missing");
     EXPECT_EQ(say("title\n1 atoms\n\nAtoms # full\n\n"),
               "s.data:4: atom style 'full': must be sphere");
 }

@@ -146,6 +146,41 @@ TEST_F(CampaignReport, TrendsGroupTheCasesThatAgreeInAllElse) {
     EXPECT_EQ(report::trends_over(data, "field.stiffness.cov").size(), 3u);
 }
 
+TEST_F(CampaignReport, TrendsTakeNumbersAndTheSecondOfThree) {
+    report::CampaignData data;
+    data.varying = {"field.correlation_length", "particle.friction_angle"};
+    const std::vector<std::pair<const char*, std::size_t>> cases{
+        {"2.5", 2},      {"[9, 0.5, 9]", 2}, {"[9, 1]", 2}, {"[9, 'b', 9]", 2},
+        {"[1, 2, 3", 2}, {"\"text\"", 2},    {"7", 1},      {"]", 2}};
+    for (const auto& [value, rows] : cases) {
+        report::CaseData& one = data.cases.emplace_back();
+        one.values["field.correlation_length"] = value;
+        one.rows.resize(rows);
+    }
+    data.cases.emplace_back().rows.resize(2);  // an older one, without the key
+    const auto trends = report::trends_over(data, "field.correlation_length");
+    ASSERT_EQ(trends.size(), 1u);
+    EXPECT_EQ(trends[0].name, "friction_angle = not set");
+    ASSERT_EQ(trends[0].points.size(), 2u);
+    EXPECT_EQ(trends[0].points[0].x, 0.5);
+    EXPECT_EQ(trends[0].points[1].x, 2.5);
+    EXPECT_TRUE(report::trends_over(data, "particle.friction_angle").empty());
+}
+
+TEST_F(CampaignReport, TrendsHaveTheUnitsOfTheirAxes) {
+    const auto dir = campaign(3,
+                              "[montecarlo]\nrealizations = 3\ndeterministic = false\n"
+                              "[montecarlo.sweep]\n'triaxial.confining_stress' = [1e4, 1e6]\n"
+                              "'particle.friction_angle' = [0.4, 0.6]\n");
+    const report::CampaignData data = report::read_campaign_data(dir);
+    const auto trends = report::trends_over(data, "triaxial.confining_stress");
+    ASSERT_EQ(trends.size(), 2u);
+    EXPECT_EQ(trends[0].points[0].x, 10) << "kPa";
+    const std::string page = read_file(write_campaign_report(dir));
+    EXPECT_THAT(page, HasSubstr("Confining stress"));
+    EXPECT_THAT(page, HasSubstr("Friction angle"));
+}
+
 TEST_F(CampaignReport, DrawsCasesThatDifferInATextKey) {
     const auto dir = campaign(3, std::string(config) +
                                      "[[montecarlo.case]]\nname = 'A'\nset.field.variable = "

@@ -170,6 +170,28 @@ TEST(Report, SaysWhenNoPeakWasFound) {
                             Not(HasSubstr(">Peak deviator stress"))));
 }
 
+TEST(Report, SaysInWordsWhatTheCaseIsAndHowQuasiStatic) {
+    const TestFolder folder;
+    auto summary = testing::write_run(folder.path(), {});
+    summary.erase("state_hash");
+    summary.erase("lateral_stress_rms_error");
+    summary.erase("lateral_stress_max_error");
+    const auto page_of = [&](const std::string& name, double inertial_number) {
+        summary["case"] = name;
+        summary["inertial_number"] = inertial_number;
+        testing::write_file(folder.path() / "summary.json", summary.dump());
+        return testing::read_file(write_report(folder.path()));
+    };
+    EXPECT_THAT(page_of("none", 5e-5),
+                AllOf(HasSubstr("uniform properties"), HasSubstr(">quasi-static<"),
+                      HasSubstr("aim: 0.5 %; from the records of curve.csv"),
+                      Not(HasSubstr("Hash of the final state"))));
+    EXPECT_THAT(page_of("both", 5e-3), AllOf(HasSubstr("random friction angle and stiffness"),
+                                             HasSubstr("nearly quasi-static: a slower test")));
+    EXPECT_THAT(page_of("my <own>", 0.05), AllOf(HasSubstr("Triaxial test: my &lt;own&gt;"),
+                                                 HasSubstr("not quasi-static: inertia adds")));
+}
+
 TEST(Report, NamesAMissingFile) {
     for (const char* name : {"summary.json", "curve.csv", "config.toml", "state.h5"}) {
         const TestFolder folder;
@@ -196,6 +218,9 @@ TEST(Report, NamesACorruptFile) {
     lacking["E50_Pa"] = "stiff";
     EXPECT_THAT(replaced("summary.json", lacking.dump()),
                 HasSubstr("key 'E50_Pa' must be a number, is \"stiff\""));
+    lacking["E50_Pa"] = 0;
+    EXPECT_THAT(replaced("summary.json", lacking.dump()),
+                HasSubstr("'E50_Pa' must be positive, is 0"));
     EXPECT_THAT(replaced("config.toml", "[triaxial]\nstrain_rate = \n"),
                 HasSubstr("config.toml:2"));
     EXPECT_THAT(replaced("packing.json", "[1, 2]"), HasSubstr("packing.json"));

@@ -6,9 +6,10 @@ What counts as a branch, and as covered:
   combination of features. A branch of a line of source is covered if some instantiation took it.
   Where instantiations differ in how many branches they have there (`if constexpr`), those with the
   most stand for the line.
-- The functions of the vector kernels are inlined into each other, many times over, and gcov puts
-  the copies' branches in one row. Copies of a branch are one branch: a line has twice as many as it
-  has conditions.
+- A function that the compiler inlined in many places, a destructor in a header or one of the vector
+  kernels, has the branches of all its copies in one row of gcov's. Copies of a branch are one
+  branch: a line whose branches are a multiple of twice its conditions has those of one copy. In the
+  vector kernels, where the copies differ, any line has.
 - Branches of a statement in which the source has no condition (`if`, a loop, `?`, `&&`, `||`,
   `switch`) are the compiler's own, in destructors and for static variables, and do not count.
 - The compiler gives every call that may throw a branch to where the exception goes. These, and
@@ -46,13 +47,17 @@ class Line:
             for k, taken in enumerate(branches):
                 known[k] += taken
 
-    def merged(self, conditions):
-        """How often each branch was taken. Copies of the branches of so many conditions are one;
-        with no number all that there are count."""
+    def merged(self, conditions, differ):
+        """How often each branch of so many conditions was taken, in any of its copies."""
         taken = self.branches[max(self.branches)] if self.branches else []
-        if conditions is None or len(taken) <= 2:
+        if len(taken) <= 2:
             return taken
-        base = 2 * conditions if conditions > 0 and len(taken) % (2 * conditions) == 0 else 2
+        if conditions > 0 and len(taken) % (2 * conditions) == 0:
+            base = 2 * conditions
+        elif differ:
+            base = 2
+        else:
+            return taken
         return [sum(taken[k::base]) for k in range(base)]
 
 
@@ -138,13 +143,13 @@ class Tally:
 
 def tally(name, source, lines):
     """Of one file; and the lines with a branch that was never taken, with how many."""
-    copied = name.startswith("kernels/vector/")
+    copies_differ = name.startswith("kernels/vector/")
     sums, missing = Tally(), {}
     for number, line in sorted(lines.items()):
         sums.lines += 1
         sums.lines_taken += line.count > 0
         here, in_statement = conditions(source, number)
-        branches = line.merged(here if copied else None) if in_statement else []
+        branches = line.merged(here, copies_differ) if in_statement else []
         if asks_the_system(source, number):
             sums.system += len(branches)
             continue

@@ -171,6 +171,47 @@ TEST_F(SampleFiles, OverlappingSpheresAreRefused) {
     EXPECT_THROW(read_packing(folder_ / "none.csv", {}), FileError);
 }
 
+TEST_F(SampleFiles, AColumnForWhatTheFieldMakesRandomIsRefused) {
+    using randomfield::Variable;
+    const auto path = write("a.csv", "x,y,z,radius,normal_stiffness\n0,0,0,0.1,1e8\n");
+    for (const Variable variable : {Variable::stiffness, Variable::both})
+        EXPECT_THAT(message_of<InputError>([&] { read_packing(path, grid_config(variable)); }),
+                    HasSubstr("a.csv: brings a column for the property that field.variable makes"));
+    for (const Variable variable : {Variable::friction, Variable::none})
+        EXPECT_EQ(read_packing(path, grid_config(variable)).spheres.normal_stiffness[0], 1e8);
+    const auto rough = write("b.csv", "x,y,z,radius,friction_angle\n0,0,0,0.1,0.3\n");
+    EXPECT_THROW(read_packing(rough, grid_config(Variable::friction)), InputError);
+    EXPECT_EQ(read_packing(rough, grid_config(Variable::stiffness)).spheres.friction_angle[0], 0.3);
+}
+
+TEST_F(SampleFiles, ContactsOfAStartAreThoseOfItsSpheresAndWalls) {
+    const Sample sample = grid_sample();
+    const auto start = [&](std::vector<std::size_t> shape, std::vector<double> values) {
+        core::SphereFile file;
+        file.spheres = sample.spheres;
+        file.box = sample.box;
+        file.kind = "start";
+        file.extra["contacts"] = {std::move(shape), std::move(values)};
+        return sample_of(std::move(file), "start.h5");
+    };
+    const Sample good = start({2, 5}, {0, 11, 1, 2, 3, 5, -6, 4, 5, 6});
+    ASSERT_EQ(good.contacts.size(), 2u);
+    EXPECT_EQ(good.contacts[1].i, 5);
+    EXPECT_EQ(good.contacts[1].j, -6);
+    EXPECT_EQ(good.contacts[1].shear, Vec3(4, 5, 6));
+    for (const auto& row : {std::vector<double>{-1, 1, 0, 0, 0},
+                            {12, 1, 0, 0, 0},
+                            {0, -7, 0, 0, 0},
+                            {0, 12, 0, 0, 0},
+                            {0, std::nan(""), 0, 0, 0}})
+        EXPECT_THAT(message_of<FileError>([&] {
+                        start({1, 5}, row);
+                    }),
+                    HasSubstr("start.h5: its contacts are damaged"));
+    EXPECT_THROW(start({5}, {0, 1, 0, 0, 0}), FileError);
+    EXPECT_THROW(start({1, 4}, {0, 1, 0, 0}), FileError);
+}
+
 TEST_F(SampleFiles, PackingComesBackBitForBitWithTheConfigsProperties) {
     packing::Packing p;
     const Sample sample = grid_sample();
