@@ -142,6 +142,29 @@ TEST(Simulate, EnergyColumnsAddUpToAConstant) {
     EXPECT_LT(place.json("run/summary.json").at("energy_closing_error"), 1e-5);
 }
 
+TEST(Simulate, MassesOfAFileCountAndOthersAreTheConfigs) {
+    const Workplace place;
+    const std::string data =
+        "title\n\n1 atoms\n1 atom types\n-1 1 xlo xhi\n-1 1 ylo yhi\n-1 1 zlo zhi\n\nAtoms # "
+        "sphere\n\n1 1 0.2 5200 0 0.5 0\n\nVelocities\n\n1 3 0 0 0 0 0\n";
+    place.write("spheres.data", data);
+    place.write("spheres.csv", "x,y,z,radius,vx,vy,vz\n0,0.5,0,0.1,3,0,0\n");
+    for (const auto& [file, expected] :
+         {std::pair{"spheres.data", 2 * mass}, std::pair{"spheres.csv", mass}}) {
+        const std::string scene =
+            place.write("scene.toml", "[particles]\nfile = '" + std::string(file) + "'\n" +
+                                          times("1e-5", "1e-4", "1e-4") + floor_wall);
+        const Outcome run = place.run({"simulate", scene, "--out", place.path(file + 8)});
+        ASSERT_EQ(run.code, 0) << run.err;
+        const Table e = read_table(place.read(std::string(file + 8) + "/energy.csv"));
+        EXPECT_NEAR(e.at(0, "kinetic_J"), 4.5 * expected, 1e-12 * expected) << file;
+    }
+    place.write("spheres.csv", "x,y,z,radius,normal_stiffness\n0,0.5,0,0.1,-3\n");
+    const Outcome run = place.run({"simulate", place.path("scene.toml"), "--out", place.path("x")});
+    EXPECT_EQ(run.code, 2);
+    EXPECT_THAT(run.err, HasSubstr("normal_stiffness = -3: must be > 0 Pa"));
+}
+
 TEST(Simulate, AutomaticStepHitsTheEnd) {
     const Workplace place;
     const Outcome run =

@@ -34,8 +34,9 @@ realizations = 60
 class CampaignReport : public ::testing::Test {
   protected:
     /// A campaign whose first `rows` realizations of each case are done: E50 lognormal with a
-    /// median of 30 MPa, peaks about 120 kPa.
-    std::filesystem::path campaign(std::int64_t rows, const std::string& text = config) const {
+    /// median of 30 MPa, peaks about 120 kPa; with no scatter all are the same.
+    std::filesystem::path campaign(std::int64_t rows, const std::string& text = config,
+                                   double scatter = 1) const {
         const auto dir = folder_.path() / "campaign";
         write_file(folder_.path() / "c.toml", text);
         const auto cases = load_campaign(folder_.path() / "c.toml");
@@ -46,7 +47,7 @@ class CampaignReport : public ::testing::Test {
                 Row row;
                 row.case_name = cases[c].name;
                 row.realization = k;
-                const double u = stream.normal(c, static_cast<std::uint64_t>(k + 1));
+                const double u = scatter * stream.normal(c, static_cast<std::uint64_t>(k + 1));
                 row.E50 = k < 0 ? 31e6 : 30e6 * std::exp(0.2 * u);
                 row.peak_deviator_stress = k < 0 ? 121e3 : 120e3 + 2e3 * u;
                 row.wall_seconds = 2;
@@ -130,6 +131,16 @@ TEST_F(CampaignReport, OfACampaignThatHasJustBegunIsWhole) {
         EXPECT_THAT(page, HasSubstr("Case correlation_length=10x1x10")) << rows;
         EXPECT_EQ(occurrences(page, "<svg"), rows < 2 ? 0u : rows < 8 ? 2u + 6u : 2u + 18u) << rows;
     }
+}
+
+TEST_F(CampaignReport, OfOneCaseWhoseRunsAreAllTheSame) {
+    const char* text = "field.variable = 'stiffness'\nmontecarlo.realizations = 12\n";
+    const std::string page = read_file(write_campaign_report(campaign(12, text, 0)));
+    EXPECT_THAT(page, HasSubstr("12 realizations over 1 case are done, 0 failed"));
+    EXPECT_THAT(page, HasSubstr("Keys that vary: none."));
+    EXPECT_THAT(page, HasSubstr("All runs gave the same modulus"));
+    EXPECT_THAT(page, HasSubstr("All runs gave the same peak deviator stress"));
+    EXPECT_EQ(occurrences(page, "<svg"), 0u);
 }
 
 TEST_F(CampaignReport, TrendsGroupTheCasesThatAgreeInAllElse) {

@@ -17,6 +17,7 @@ TEST(Text, RoundsToSignificantDigits) {
     EXPECT_EQ(significant(9.9996), "10.00");
     EXPECT_EQ(significant(0), "0");
     EXPECT_EQ(significant(2.5e-7, 2), "2.5e-07");
+    EXPECT_EQ(significant(1e7, 3), "1.00e+07");
     EXPECT_EQ(significant(std::numeric_limits<double>::quiet_NaN()), "not a number");
 }
 
@@ -25,12 +26,15 @@ TEST(Text, GroupsCounts) {
     EXPECT_EQ(count(999), "999");
     EXPECT_EQ(count(151632), "151,632");
     EXPECT_EQ(count(-1234567), "-1,234,567");
+    EXPECT_EQ(count(1e16), "1.000e+16");
+    EXPECT_EQ(count(std::numeric_limits<double>::infinity()), "not a number");
 }
 
 TEST(Text, SaysDurations) {
     EXPECT_EQ(duration(12.94), "12.9 s");
     EXPECT_EQ(duration(252), "4 min 12 s");
     EXPECT_EQ(duration(3900), "1 h 05 min");
+    EXPECT_EQ(duration(std::numeric_limits<double>::quiet_NaN()), "not a number");
 }
 
 TEST(Text, EscapesHtml) {
