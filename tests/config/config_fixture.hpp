@@ -1,5 +1,5 @@
 #pragma once
-// A folder of its own for each test, and the message an action fails with.
+// A folder of its own for each test.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/errors.hpp"
+#include "tests/message_of.hpp"
 
 namespace grainfield::triaxial {
 
@@ -28,17 +29,5 @@ class ConfigTest : public ::testing::Test {
         ("grainfield_config_" + std::to_string(::getpid()) + "_" +
          ::testing::UnitTest::GetInstance()->current_test_info()->name());
 };
-
-/// what() of the Error that the action throws; "no error" (and a failure) where it throws none.
-template <class Error, class Action>
-std::string message_of(const Action& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    ADD_FAILURE() << "no error was thrown";
-    return "no error";
-}
 
 }  // namespace grainfield::triaxial

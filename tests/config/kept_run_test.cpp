@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "tests/message_of.hpp"
 #include "triaxial/config/load_config.hpp"
 #include "triaxial/config/write_config.hpp"
 
@@ -28,16 +29,6 @@ core::FoundCheckpoint checkpoint_of(const Settings& settings) {
     return found;
 }
 
-template <class Call>
-std::string message(Call call) {
-    try {
-        call();
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "nothing was thrown";
-}
-
 TEST(ResumedRun, HasTheConfigOfItsCheckpoint) {
     const Settings settings{"packing.seed=7", "field.variable=friction"};
     const core::FoundCheckpoint found = checkpoint_of(settings);
@@ -50,7 +41,8 @@ TEST(ResumedRun, HasTheConfigOfItsCheckpoint) {
 
 TEST(ResumedRun, NamesTheFirstKeyThatDiffers) {
     const core::FoundCheckpoint found = checkpoint_of({"packing.seed=7"});
-    EXPECT_THAT(message([&] { resumed_config(found, std::nullopt, Settings{"packing.seed=8"}); }),
+    EXPECT_THAT(message_of<InputError>(
+                    [&] { resumed_config(found, std::nullopt, Settings{"packing.seed=8"}); }),
                 AllOf(HasSubstr("--resume: run/checkpoint.bin is of another config"),
                       HasSubstr("here [packing] seed = 8; the checkpoint has seed = 7")));
 }
@@ -59,7 +51,7 @@ TEST(ResumedRun, HasTheKernelsOfItsCheckpointUnlessOthersAreAskedFor) {
     const core::FoundCheckpoint found = checkpoint_of({});
     EXPECT_EQ(resumed_solver(found, "triaxial", {}).isa, core::Isa::avx2);
     EXPECT_EQ(resumed_solver(found, "triaxial", {.isa = core::Isa::scalar}).isa, core::Isa::scalar);
-    EXPECT_EQ(message([&] { resumed_solver(found, "simulate", {}); }),
+    EXPECT_EQ(message_of<InputError>([&] { resumed_solver(found, "simulate", {}); }),
               "--resume: run/checkpoint.bin is a checkpoint of `triaxial`");
 }
 

@@ -13,7 +13,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-using triaxial::message_of;
 
 const double nan_value = std::nan("");
 const double infinity = std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 #pragma once
-// What the tests of files share: a sample with awkward numbers, a folder of their own, bitwise
-// comparison, and the message of an expected error.
+// What the tests of files share: a sample with awkward numbers, a folder of their own, and
+// bitwise comparison.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -14,6 +14,7 @@
 
 #include "core/files/atomic_file.hpp"
 #include "core/files/sphere_file.hpp"
+#include "tests/message_of.hpp"
 
 namespace grainfield::core {
 
@@ -88,21 +89,6 @@ inline void expect_same_columns(const ParticleStore& a, const ParticleStore& b) 
     EXPECT_TRUE(same_bits(a.normal_stiffness, b.normal_stiffness));
     EXPECT_TRUE(same_bits(a.friction_angle, b.friction_angle));
     EXPECT_TRUE(same_bits(a.block, b.block));
-}
-
-/// The message of the error that `action` must throw.
-template <class Error, class Action>
-std::string message_of(Action action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.what();
-    } catch (const std::exception& other) {
-        ADD_FAILURE() << "another error: " << other.what();
-        return {};
-    }
-    ADD_FAILURE() << "no error";
-    return {};
 }
 
 }  // namespace grainfield::core

@@ -99,8 +99,8 @@ TEST(Block, UnreachablePorosityNamesTheOneThatWas) {
     Material material;
     material.friction_angle = 0;  // spares the bouts in which the friction is lowered
     core::Monitor monitor;
-    const std::string message = testing::message_of<InputError>(
-        [&] { pack_block(options, narrow_grading(), material, monitor); });
+    const std::string message =
+        message_of<InputError>([&] { pack_block(options, narrow_grading(), material, monitor); });
     EXPECT_THAT(message, HasSubstr("packing.porosity = 0.3"));
     const auto at = message.rfind("ended at ");
     ASSERT_NE(at, std::string::npos) << message;

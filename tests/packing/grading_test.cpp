@@ -163,11 +163,11 @@ TEST(AchievedPassing, CountsMassUpToAndWithTheSieve) {
 TEST(Options, BadOnesAreNamed) {
     Grading grading;
     grading.passing[2] = 95;
-    EXPECT_NE(testing::message_of<InputError>([&] { grading.validate(); }).find("grading.passing"),
+    EXPECT_NE(message_of<InputError>([&] { grading.validate(); }).find("grading.passing"),
               std::string::npos);
     PackingOptions options;
     options.porosity = 1.2;
-    const std::string message = testing::message_of<InputError>([&] { options.validate(); });
+    const std::string message = message_of<InputError>([&] { options.validate(); });
     EXPECT_NE(message.find("packing.porosity = 1.2"), std::string::npos) << message;
 }
 

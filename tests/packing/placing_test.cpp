@@ -51,8 +51,7 @@ TEST(PlaceAtRandom, IsAFunctionOfTheSeedAndKeepsTheOrder) {
 
 TEST(PlaceAtRandom, SphereWiderThanTheBoxIsRefused) {
     core::ParticleStore s = spheres_of({0.05, 0.11, 0.01}, {});
-    const std::string message =
-        testing::message_of<InputError>([&] { place_at_random(s, 0.3, 0.2, 1, 1); });
+    const std::string message = message_of<InputError>([&] { place_at_random(s, 0.3, 0.2, 1, 1); });
     EXPECT_THAT(message, HasSubstr("packing.block"));
     EXPECT_THAT(message, HasSubstr("0.22"));
 }

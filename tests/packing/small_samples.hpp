@@ -14,6 +14,7 @@
 #include "packing/deposit.hpp"
 #include "packing/isotropic.hpp"
 #include "packing/packing_options.hpp"
+#include "tests/message_of.hpp"
 
 namespace grainfield::packing::testing {
 
@@ -36,18 +37,6 @@ inline PackingOptions small_options() {
 
 inline double sphere_volume(double diameter) {
     return std::numbers::pi / 6 * diameter * diameter * diameter;
-}
-
-/// The message of the Error that `action` throws; a failed check where it throws none.
-template <class Error, class Action>
-std::string message_of(const Action& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return "";
 }
 
 /// Spheres as pack_block() makes them, of the radii given [m], at the origin.

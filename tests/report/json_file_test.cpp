@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
+#include "tests/message_of.hpp"
 #include "tests/report/run_fixture.hpp"
 
 namespace grainfield::triaxial::report {
@@ -23,16 +24,6 @@ class JsonFileTest : public ::testing::Test {
         const auto path = folder_.path() / "summary.json";
         triaxial::testing::write_file(path, text);
         return JsonFile(path);
-    }
-
-    template <class Read>
-    static std::string error(Read read) {
-        try {
-            read();
-        } catch (const FileError& e) {
-            return e.what();
-        }
-        return "nothing was thrown";
     }
 
   private:
@@ -59,7 +50,7 @@ TEST_F(JsonFileTest, FindsKeysInTables) {
 TEST_F(JsonFileTest, NamesTheKeyOfWhatIsWrong) {
     const JsonFile json = file(R"({"text": "t", "none": null, "table": {"x": 1, "y": "z"},
                                    "mixed": [1, "two"]})");
-    const auto say = [](auto read) { return error(read); };
+    const auto say = [](auto read) { return message_of<FileError>(read); };
     EXPECT_THAT(say([&] { json.number("x"); }), EndsWith("summary.json: key 'x' is missing"));
     EXPECT_THAT(say([&] { json.number("none"); }), HasSubstr("must be a number, is null"));
     EXPECT_THAT(say([&] { json.number("text"); }), HasSubstr("must be a number, is \"t\""));

@@ -15,7 +15,6 @@
 namespace grainfield::triaxial {
 namespace {
 
-using packing::testing::message_of;
 using packing::testing::spheres_of;
 using ::testing::HasSubstr;
 
