@@ -11,12 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> sample{"--threads", "1", "--set", "packing.blocks=[1,2,1]", "--set",
-                                      "packing.spheres=60", "--set", "packing.porosity=0.48",
-                                      "--set", "grading.sieve_diameter=[0.03,0.04,0.06]", "--set",
-                                      "grading.passing=[0,50,100]",
-                                      // As often as the program looks at the clock: 16 steps.
-                                      "--checkpoint-every", "1e-9"};
+// As often as the program looks at the clock: 16 steps.
+const std::vector<std::string> often{"--checkpoint-every", "1e-9"};
 
 /// A gnuplot that draws nothing, in no time: what the figures show is not the matter here.
 void stand_in_for_gnuplot(const Workplace& place) {
@@ -34,7 +30,7 @@ void stand_in_for_gnuplot(const Workplace& place) {
 SmallRun::SmallRun(const std::string& subcommand, const std::string& target,
                    const std::vector<std::string>& more)
     : command_{subcommand, "--out", place.path(target)} {
-    for (const auto* words : {&sample, &more})
+    for (const auto* words : {&small_packing, &often, &more})
         command_.insert(command_.end(), words->begin(), words->end());
     stand_in_for_gnuplot(place);
     fs::create_directory(place.path("run"));

@@ -13,24 +13,11 @@ namespace {
 
 using testing::HasSubstr;
 
-/// 120 spheres in two blocks, a second's work.
+/// `pack` of the small packing into a file.
 std::vector<std::string> packing(const std::string& out,
                                  const std::vector<std::string>& more = {}) {
-    std::vector<std::string> words{"pack",
-                                   "--out",
-                                   out,
-                                   "--threads",
-                                   "1",
-                                   "--set",
-                                   "packing.blocks=[1,2,1]",
-                                   "--set",
-                                   "packing.spheres=60",
-                                   "--set",
-                                   "packing.porosity=0.48",
-                                   "--set",
-                                   "grading.sieve_diameter=[0.03,0.04,0.06]",
-                                   "--set",
-                                   "grading.passing=[0,50,100]"};
+    std::vector<std::string> words{"pack", "--out", out};
+    words.insert(words.end(), small_packing.begin(), small_packing.end());
     words.insert(words.end(), more.begin(), more.end());
     return words;
 }

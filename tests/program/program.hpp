@@ -54,6 +54,9 @@ class Workplace {
     std::filesystem::path folder_;
 };
 
+/// Arguments of `pack` for 120 spheres in two blocks on one thread, a second's work.
+extern const std::vector<std::string> small_packing;
+
 /// A table of numbers by the names of its header.
 struct Table {
     std::string header;
