@@ -10,10 +10,10 @@
 #include <mutex>
 #include <thread>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/random.hpp"
 #include "core/kernel_choice.hpp"
-#include "core/random.hpp"
-#include "triaxial/test/packing_files.hpp"
+#include "triaxial/realization/packing_files.hpp"
 
 namespace grainfield::bench {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/monitor.hpp"
-#include "triaxial/test/sample.hpp"
+#include "core/base/monitor.hpp"
+#include "triaxial/realization/sample.hpp"
 
 namespace grainfield::bench {
 

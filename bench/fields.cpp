@@ -18,13 +18,13 @@
 #include "bench/fields_picture.hpp"
 #include "bench/machine.hpp"
 #include "bench/statistics.hpp"
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/random.hpp"
 #include "core/files/atomic_file.hpp"
-#include "core/random.hpp"
 #include "kernels/vector/vector_tables.hpp"
-#include "randomfield/covariance.hpp"
-#include "randomfield/field_error.hpp"
-#include "randomfield/generator.hpp"
+#include "randomfield/covariance/covariance.hpp"
+#include "randomfield/generators/generator.hpp"
+#include "randomfield/verification/field_error.hpp"
 
 namespace {
 

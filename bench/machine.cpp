@@ -8,7 +8,7 @@
 #include <fstream>
 #include <vector>
 
-#include "core/large_pages.hpp"
+#include "core/base/large_pages.hpp"
 
 namespace grainfield::bench {
 

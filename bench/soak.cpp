@@ -15,9 +15,10 @@
 
 #include "bench/stability.hpp"
 #include "bench/stressed_sample.hpp"
+#include "core/drive/box.hpp"
+#include "core/drive/measures.hpp"
+#include "core/drive/step_control.hpp"
 #include "core/files/atomic_file.hpp"
-#include "core/measures.hpp"
-#include "core/step_control.hpp"
 #include "packing/isotropic.hpp"
 
 namespace grainfield::bench {
@@ -44,14 +45,14 @@ std::string soak(const core::Simulation& still, const NamedKernels& kernels, boo
     const double step = core::StepControl({}).next(simulation);
     const std::int64_t period = steps / cycles;
     const double omega = 2 * std::numbers::pi / (static_cast<double>(period) * step);
-    const Vec3 size = packing::box_dimensions(simulation);
+    const Vec3 size = core::box_dimensions(simulation);
     std::string rows;
     double least = 0, most = 0;  // stress on the moving wall's axis within the cycle [Pa]
     const auto look = [&] {
         simulation.compute_forces(true);
         const core::Energy energy = simulation.energy();
         const double stress =
-            core::mean_stress(simulation, packing::box_dimensions(simulation).prod()).trace() / 3;
+            core::mean_stress(simulation, core::box_dimensions(simulation).prod()).trace() / 3;
         rows +=
             fmt::format("{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{}\n",
                         cycled ? "cycled" : "resting", kernels.name, kernels.table->isa,
@@ -61,10 +62,10 @@ std::string soak(const core::Simulation& still, const NamedKernels& kernels, boo
     };
     look();
     for (std::int64_t cycle = 0; cycle < cycles; ++cycle) {
-        least = most = packing::axis_stress(simulation, 1);
+        least = most = core::axis_stress(simulation, 1);
         for (std::int64_t k = 0; k < period; ++k)
             simulation.step(step, [&] {
-                const double stress = packing::axis_stress(simulation, 1);
+                const double stress = core::axis_stress(simulation, 1);
                 least = std::min(least, stress);
                 most = std::max(most, stress);
                 // At mid-step: over a cycle the displacements add up to zero.

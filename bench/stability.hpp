@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/scene/scene.hpp"
 #include "core/simulation.hpp"
 #include "kernels/contact_kernels.hpp"
 #include "triaxial/report/gnuplot.hpp"

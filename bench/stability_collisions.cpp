@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "bench/stability.hpp"
-#include "core/driver.hpp"
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
+#include "core/drive/driver.hpp"
 
 namespace grainfield::bench {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "bench/stability.hpp"
-#include "core/driver.hpp"
-#include "core/random.hpp"
+#include "core/base/random.hpp"
+#include "core/drive/driver.hpp"
 #include "packing/isotropic.hpp"
 
 namespace grainfield::bench {

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "bench/stability.hpp"
+#include "core/base/random.hpp"
 #include "core/kernel_choice.hpp"
-#include "core/random.hpp"
-#include "triaxial/test/triaxial_test.hpp"
+#include "triaxial/realization/triaxial_test.hpp"
 
 namespace grainfield::bench {
 namespace {

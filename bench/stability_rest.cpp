@@ -11,8 +11,9 @@
 #include <cmath>
 
 #include "bench/stability.hpp"
-#include "core/driver.hpp"
-#include "core/measures.hpp"
+#include "core/drive/box.hpp"
+#include "core/drive/driver.hpp"
+#include "core/drive/measures.hpp"
 #include "packing/isotropic.hpp"
 
 namespace grainfield::bench {
@@ -27,7 +28,7 @@ core::Simulation settled(const core::Scene& scene) {
         packing::compress_isotropically(driver, confining_stress);
         for (int k = 0; k < hold; ++k) driver.step(false, [](double) {});
         simulation.compute_forces(true);
-        const double stress = packing::axis_stress(simulation, 1);
+        const double stress = core::axis_stress(simulation, 1);
         say(fmt::format("rest: round {}, stress {:.6g} Pa, unbalanced force ratio {:.2g}", round,
                         stress, simulation.unbalanced_force_ratio()));
         if (std::abs(stress / confining_stress - 1) < lost + 2e-3) break;
@@ -58,7 +59,7 @@ struct State {
 State state(core::Simulation& simulation) {
     simulation.compute_forces(true);
     const core::Energy energy = simulation.energy();
-    const double volume = packing::box_dimensions(simulation).prod();
+    const double volume = core::box_dimensions(simulation).prod();
     return {.kinetic = energy.kinetic + energy.rotational,
             .elastic = energy.elastic_normal + energy.elastic_shear,
             .stress = core::mean_stress(simulation, volume).trace() / 3,

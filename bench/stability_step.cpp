@@ -13,9 +13,9 @@
 #include <limits>
 
 #include "bench/stability.hpp"
-#include "core/frequency.hpp"
-#include "core/random.hpp"
-#include "core/step_control.hpp"
+#include "core/base/random.hpp"
+#include "core/drive/frequency.hpp"
+#include "core/drive/step_control.hpp"
 
 namespace grainfield::bench {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "core/frequency.hpp"
+#include "core/base/random.hpp"
+#include "core/drive/frequency.hpp"
+#include "core/drive/servo.hpp"
 #include "core/neighbour_search.hpp"
-#include "core/random.hpp"
-#include "core/servo.hpp"
 #include "core/simulation.hpp"
 #include "kernels/vector/vector_tables.hpp"
 #include "randomfield/block_field.hpp"

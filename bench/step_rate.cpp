@@ -16,8 +16,9 @@
 #include "bench/speed_picture.hpp"
 #include "bench/statistics.hpp"
 #include "bench/stressed_sample.hpp"
+#include "core/drive/box.hpp"
+#include "core/drive/servo.hpp"
 #include "core/files/atomic_file.hpp"
-#include "core/servo.hpp"
 #include "core/simulation.hpp"
 #include "kernels/vector/vector_tables.hpp"
 #include "packing/isotropic.hpp"
@@ -35,7 +36,7 @@ class ShearedSample {
   public:
     ShearedSample(const core::Scene& scene, const kernels::KernelTable& kernels, int threads)
         : simulation_(scene, kernels), threads_(threads) {
-        const Vec3 size = packing::box_dimensions(simulation_);
+        const Vec3 size = core::box_dimensions(simulation_);
         for (const std::size_t wall : {0u, 1u, 4u, 5u})
             servos_.emplace_back(wall, core::WallServo::Options{.stress = confining_stress,
                                                                 .max_speed = 0.25 * size.x()});
@@ -52,11 +53,11 @@ class ShearedSample {
         const auto start = std::chrono::steady_clock::now();
         for (int k = 0; k < steps; ++k)
             simulation_.step(step, [&] {
-                const Vec3 size = packing::box_dimensions(simulation_);
+                const Vec3 size = core::box_dimensions(simulation_);
                 simulation_.set_wall_velocity(3, Vec3(0, -strain_rate * size.y(), 0));
                 for (core::WallServo& servo : servos_)
                     servo.steer(simulation_,
-                                packing::wall_area(size, static_cast<int>(servo.wall()) / 2), step);
+                                core::wall_area(size, static_cast<int>(servo.wall()) / 2), step);
             });
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }

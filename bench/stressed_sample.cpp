@@ -5,7 +5,7 @@
 #include "core/files/sphere_file.hpp"
 #include "packing/pack.hpp"
 #include "triaxial/config/config.hpp"
-#include "triaxial/test/packing_files.hpp"
+#include "triaxial/realization/packing_files.hpp"
 
 namespace grainfield::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "core/scene.hpp"
+#include "core/scene/scene.hpp"
 
 namespace grainfield::bench {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench/stressed_sample.hpp"
-#include "core/driver.hpp"
+#include "core/drive/driver.hpp"
 #include "core/kernel_choice.hpp"
 
 namespace grainfield::bench {

@@ -1,6 +1,6 @@
 #include "core/engine.hpp"
 
-#include "core/reference_engine.hpp"
+#include "core/reference/reference_engine.hpp"
 #include "core/vector/vector_engine.hpp"
 
 namespace grainfield::core {

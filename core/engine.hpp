@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "core/scene/world.hpp"
 #include "core/state/bytes.hpp"
-#include "core/world.hpp"
 
 namespace grainfield::core {
 

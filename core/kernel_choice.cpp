@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "kernels/vector/vector_tables.hpp"
 
 namespace grainfield::core {
@@ -21,7 +21,7 @@ const kernels::KernelTable* usable(InstructionSet isa, Precision precision) {
                                          : kernels::double_table(isa);
 }
 
-InstructionSet wanted(Isa isa) {
+InstructionSet wanted_set(Isa isa) {
     return isa == Isa::avx512 ? InstructionSet::avx512
            : isa == Isa::avx2 ? InstructionSet::avx2
                               : InstructionSet::scalar;
@@ -31,7 +31,7 @@ InstructionSet wanted(Isa isa) {
 
 const kernels::KernelTable& choose_kernels(const SolverOptions& options) {
     if (options.isa != Isa::automatic) {
-        const InstructionSet isa = wanted(options.isa);
+        const InstructionSet isa = wanted_set(options.isa);
         if (const auto* table = usable(isa, options.precision)) return *table;
         std::string allowed = "\"auto\"";
         for (const InstructionSet other : kernels::instruction_sets)

@@ -6,8 +6,8 @@
 #include <limits>
 #include <numeric>
 
-#include "core/parallel.hpp"
-#include "core/tasks.hpp"
+#include "core/base/parallel.hpp"
+#include "core/base/tasks.hpp"
 #include "kernels/vector/near_points.hpp"
 #include "kernels/vector/records.hpp"
 

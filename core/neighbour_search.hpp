@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/particle_store.hpp"
+#include "core/scene/particle_store.hpp"
 #include "kernels/contact_kernels.hpp"
 
 namespace grainfield::core {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/parallel.hpp"
-#include "core/reference_engine.hpp"
+#include "core/base/parallel.hpp"
+#include "core/reference/reference_engine.hpp"
 
 namespace grainfield::core {
 

@@ -15,8 +15,8 @@
 #include <span>
 #include <vector>
 
-#include "core/energy.hpp"
 #include "core/engine.hpp"
+#include "core/scene/energy.hpp"
 #include "core/state/bytes.hpp"
 
 namespace grainfield::core {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/driver.hpp"
-#include "core/errors.hpp"
-#include "core/measures.hpp"
-#include "core/random.hpp"
-#include "core/servo.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/random.hpp"
+#include "core/drive/driver.hpp"
+#include "core/drive/measures.hpp"
+#include "core/drive/servo.hpp"
 #include "packing/deposit.hpp"
 
 namespace grainfield::packing {
@@ -31,10 +31,10 @@ constexpr double slowest = 10.0, fastest = 25.0;  // [1/s]
 constexpr double friction_factor = 0.7;      // the friction angle goes down by this when stalled
 constexpr double lowest_friction = 2e-3;     // below this: none [rad]
 constexpr double porosity_tolerance = 2e-3;  // of the block [-]
-constexpr double rest = 1e-3;                // unbalanced force ratio of a settled state [-]
+constexpr double rest_ratio = 1e-3;          // unbalanced force ratio of a settled state [-]
 // From this ratio on, a look (50 steps) takes a share of all velocities away: loose spheres that
 // bounce in their pores lose little by local damping alone, and what still falls goes on falling.
-constexpr double relaxation_begins = 0.05, relaxation = 0.95;  // [-]
+constexpr double damped_below = 0.05, damped_to = 0.95;  // [-]
 
 /// A wall deforms like half of the contact with a mirror image: infinitely stiff, it gives the
 /// same force at the same overlap on this side of the mirror plane, so that the block stays in
@@ -55,7 +55,8 @@ class BlockPacker {
         simulation_.set_wall_point(lid, Vec3(0, lid_height, 0));
     }
 
-    /// Runs under gravity along -y (or +y: reversed) until at rest; the lid stays where it is.
+    /// Runs under gravity along -y (or +y: reversed) until at rest_ratio; the lid stays where it
+    /// is.
     void settle(const char* stage, bool reversed = false) {
         driver_.monitor().begin(stage);
         simulation_.set_gravity(reversed ? Vec3(-gravity()) : gravity());
@@ -71,18 +72,18 @@ class BlockPacker {
                 if (!look) return;
                 ratio = simulation_.unbalanced_force_ratio();
                 speed = mean_speed();
-                if (ratio < relaxation_begins) simulation_.scale_velocities(relaxation);
+                if (ratio < damped_below) simulation_.scale_velocities(damped_to);
             });
             if (simulation_.steps() % 2000 == 0)
                 driver_.monitor().progress(-1, simulation_.steps(),
                                            fmt::format("unbalanced force ratio {:.2g}", ratio));
             if (simulation_.time() > deadline)
-                driver_.fail(
-                    fmt::format("the block does not come to rest: unbalanced force ratio {:.2g}, "
-                                "mean speed {:.2g} m/s "
-                                "after 30 s",
-                                ratio, speed));
-        } while (ratio > rest || speed > negligible);
+                driver_.fail(fmt::format(
+                    "the block does not come to rest_ratio: unbalanced force ratio {:.2g}, "
+                    "mean speed {:.2g} m/s "
+                    "after 30 s",
+                    ratio, speed));
+        } while (ratio > rest_ratio || speed > negligible);
         simulation_.compute_forces(true);
     }
 

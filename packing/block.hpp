@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/monitor.hpp"
-#include "core/particle_store.hpp"
+#include "core/base/monitor.hpp"
+#include "core/scene/particle_store.hpp"
 #include "core/solver_options.hpp"
 #include "packing/grading.hpp"
 #include "packing/packing_options.hpp"

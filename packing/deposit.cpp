@@ -6,8 +6,8 @@
 #include <numeric>
 #include <vector>
 
-#include "core/errors.hpp"
-#include "core/random.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/random.hpp"
 
 namespace grainfield::packing {
 namespace {

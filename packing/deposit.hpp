@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/particle_store.hpp"
+#include "core/scene/particle_store.hpp"
 
 namespace grainfield::packing {
 

@@ -4,57 +4,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
+#include "core/drive/box.hpp"
+#include "core/drive/servo.hpp"
 #include "core/state/part_of.hpp"
 
 namespace grainfield::packing {
 namespace {
 
-constexpr double rest = 1e-3;              // unbalanced force ratio [-]
+constexpr double isotropic_rest = 1e-3;    // unbalanced force ratio [-]
 constexpr double stress_tolerance = 2e-3;  // of each wall [-]
 constexpr double most_strain_rate = 0.5;   // cap of the walls' speed over the half dimension [1/s]
 // Loose spheres that bounce in their pores lose little by local damping alone. Once the stress is
 // nearly there, a look (20 steps) multiplies all velocities by this factor; smaller steps, of which
 // as much motion takes more, by less.
-constexpr double relaxation_begins = 0.02;  // largest stress error of a wall [-]
-constexpr double relaxation = 0.85;         // at the step below [-]
-constexpr double relaxation_step = 0.8;     // of the stability limit [-]
-constexpr std::int64_t most_steps = 200000;
+constexpr double relaxed_within = 0.02;  // largest stress error of a wall [-]
+constexpr double relaxed_to = 0.85;      // at the step below [-]
+constexpr double relaxed_step = 0.8;     // of the stability limit [-]
+constexpr std::int64_t most_isotropic_steps = 200000;
 
 }  // namespace
 
-Vec3 box_dimensions(const core::Simulation& simulation) {
-    const auto walls = simulation.walls();
-    Vec3 size;
-    for (int a = 0; a < 3; ++a) size[a] = walls[2 * a + 1].point[a] - walls[2 * a].point[a];
-    return size;
-}
-
-double wall_area(const Vec3& dimensions, int axis) {
-    return dimensions[(axis + 1) % 3] * dimensions[(axis + 2) % 3];
-}
-
-double axis_stress(const core::Simulation& simulation, int axis) {
-    const auto low = static_cast<std::size_t>(2 * axis);
-    return 0.5 *
-           (core::wall_compression(simulation, low) + core::wall_compression(simulation, low + 1)) /
-           wall_area(box_dimensions(simulation), axis);
-}
-
-double most_kinetic_energy(const core::Simulation& simulation, double rate, double stress) {
-    const auto& mass = simulation.spheres().mass;
-    const double total = std::accumulate(mass.begin(), mass.end(), 0.0);
-    const Vec3 size = box_dimensions(simulation);
-    // Velocities from 0 to rate * size along each axis.
-    const double imposed = total * rate * rate * size.squaredNorm() / 6;
-    return 10 * imposed + 0.01 * stress * size.prod();
-}
-
 IsotropicResult compress_isotropically(core::Driver& driver, double stress) {
     core::Simulation& simulation = driver.simulation();
-    const Vec3 start = box_dimensions(simulation);
+    const Vec3 start = core::box_dimensions(simulation);
     std::vector<core::WallServo> servos;
     for (std::size_t w = 0; w < 6; ++w)
         servos.emplace_back(
@@ -67,34 +41,34 @@ IsotropicResult compress_isotropically(core::Driver& driver, double stress) {
             archive(core::bytes(result));
             for (core::WallServo& servo : servos) archive(servo);
         });
-    driver.limit_kinetic_energy(most_kinetic_energy(simulation, most_strain_rate, stress));
+    driver.limit_kinetic_energy(core::most_kinetic_energy(simulation, most_strain_rate, stress));
     for (bool reached = false; !reached; ++result.steps) {
         driver.safe_point();
         const bool look = result.steps % 20 == 0;
         driver.step(look, [&](double step) {
-            const Vec3 size = box_dimensions(simulation);
+            const Vec3 size = core::box_dimensions(simulation);
             double worst = 0;
             for (core::WallServo& servo : servos) {
                 const double error = servo.steer(
-                    simulation, wall_area(size, static_cast<int>(servo.wall()) / 2), step);
+                    simulation, core::wall_area(size, static_cast<int>(servo.wall()) / 2), step);
                 worst = std::max(worst, std::abs(error));
             }
             if (!look) return;
             result.stress_error = worst;
             result.unbalanced_force_ratio = simulation.unbalanced_force_ratio();
-            if (worst < relaxation_begins) {
+            if (worst < relaxed_within) {
                 const double limit = driver.control().limit();
-                const double share = limit > 0 ? step / limit / relaxation_step : 1.0;
-                simulation.scale_velocities(std::pow(relaxation, share));
+                const double share = limit > 0 ? step / limit / relaxed_step : 1.0;
+                simulation.scale_velocities(std::pow(relaxed_to, share));
             }
-            reached = worst < stress_tolerance && result.unbalanced_force_ratio < rest;
+            reached = worst < stress_tolerance && result.unbalanced_force_ratio < isotropic_rest;
         });
         if (result.steps % 100 == 0)
             driver.monitor().progress(
                 -1, result.steps,
                 fmt::format("unbalanced force ratio {:.2g}, stress within {:.2g} %",
                             result.unbalanced_force_ratio, 100 * result.stress_error));
-        if (result.steps > most_steps)
+        if (result.steps > most_isotropic_steps)
             driver.fail(fmt::format(
                 "the isotropic stress of {:g} Pa is not reached: after {} steps the walls are "
                 "within {:.2g} % and the "

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "core/measures.hpp"
-#include "core/monitor.hpp"
+#include "core/base/monitor.hpp"
+#include "core/drive/measures.hpp"
 #include "core/state/checkpoint.hpp"
 #include "packing/block.hpp"
 #include "packing/stress_profile.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 
 namespace grainfield::packing {
 namespace {

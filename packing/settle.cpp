@@ -6,22 +6,22 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/measures.hpp"
-#include "core/servo.hpp"
+#include "core/drive/measures.hpp"
+#include "core/drive/servo.hpp"
 #include "core/state/part_of.hpp"
 
 namespace grainfield::packing {
 namespace {
 
-constexpr double rest = 1e-2;             // unbalanced force ratio, loose spheres included [-]
+constexpr double settled_ratio = 1e-2;    // unbalanced force ratio, loose spheres included [-]
 constexpr double floor_tolerance = 1e-2;  // of the weight [-]
 constexpr std::int64_t look_every = 20;   // steps between two looks
 // Loose spheres that bounce in their pores lose little by local damping alone: once the floor
 // carries nearly the whole weight, a look takes this share of all velocities away. What still falls
 // goes on falling, at up to 0.06 m/s.
-constexpr double relaxation_begins = 0.05;  // of the weight [-]
-constexpr double relaxation = 0.9;          // factor on the velocities [-]
-constexpr std::int64_t most_steps = 200000;
+constexpr double calmed_within = 0.05;  // of the weight [-]
+constexpr double calmed_to = 0.9;       // factor on the velocities [-]
+constexpr std::int64_t most_settling_steps = 200000;
 
 }  // namespace
 
@@ -45,10 +45,10 @@ void settle_under_gravity(core::Driver& driver, std::size_t floor_wall, double g
             if (!look) return;
             ratio = simulation.unbalanced_force_ratio();
             floor_error = core::wall_compression(simulation, floor_wall) / weight - 1;
-            if (std::abs(floor_error) < relaxation_begins) simulation.scale_velocities(relaxation);
+            if (std::abs(floor_error) < calmed_within) simulation.scale_velocities(calmed_to);
         });
         if (!look) continue;
-        if (ratio < rest && std::abs(floor_error) < floor_tolerance &&
+        if (ratio < settled_ratio && std::abs(floor_error) < floor_tolerance &&
             core::kinetic_energy(simulation) < negligible)
             break;
         if (steps % 100 == 0)
@@ -56,9 +56,9 @@ void settle_under_gravity(core::Driver& driver, std::size_t floor_wall, double g
                 -1, steps,
                 fmt::format("unbalanced force ratio {:.2g}, floor carries {:.1f} % of the weight",
                             ratio, 100 * (1 + floor_error)));
-        if (steps > most_steps)
+        if (steps > most_settling_steps)
             driver.fail(fmt::format(
-                "the sample does not come to rest under gravity: unbalanced force ratio "
+                "the sample does not come to settled_ratio under gravity: unbalanced force ratio "
                 "{:.2g} after {} steps",
                 ratio, steps));
     }

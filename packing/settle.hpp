@@ -1,7 +1,7 @@
 #pragma once
 // Brings a flipped sample to rest under gravity in a frictionless box.
 
-#include "core/driver.hpp"
+#include "core/drive/driver.hpp"
 
 namespace grainfield::packing {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/measures.hpp"
+#include "core/drive/measures.hpp"
 
 namespace grainfield::packing {
 namespace {

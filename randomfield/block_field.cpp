@@ -5,10 +5,10 @@
 #include <cmath>
 #include <optional>
 
-#include "core/errors.hpp"
-#include "core/random.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/random.hpp"
+#include "randomfield/marginals/property_limits.hpp"
 #include "randomfield/memory_limit.hpp"
-#include "randomfield/property_limits.hpp"
 
 namespace grainfield::randomfield {
 namespace {

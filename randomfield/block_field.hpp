@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "randomfield/conditioning.hpp"
-#include "randomfield/field_error.hpp"
+#include "randomfield/conditioning/conditioning.hpp"
 #include "randomfield/field_options.hpp"
-#include "randomfield/generator.hpp"
+#include "randomfield/generators/generator.hpp"
 #include "randomfield/grid.hpp"
-#include "randomfield/marginals.hpp"
+#include "randomfield/marginals/marginals.hpp"
+#include "randomfield/verification/field_error.hpp"
 
 namespace grainfield::randomfield {
 

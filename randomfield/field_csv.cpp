@@ -5,7 +5,7 @@
 #include <iterator>
 #include <string>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/text_file.hpp"
 #include "randomfield/field_formats.hpp"
 

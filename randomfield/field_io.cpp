@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/atomic_file.hpp"
 #include "randomfield/field_formats.hpp"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "core/monitor.hpp"
+#include "core/base/monitor.hpp"
 #include "randomfield/block_field.hpp"
 
 namespace grainfield::randomfield {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "core/errors.hpp"
-#include "randomfield/marginals.hpp"
-#include "randomfield/property_limits.hpp"
+#include "core/base/errors.hpp"
+#include "randomfield/marginals/marginals.hpp"
+#include "randomfield/marginals/property_limits.hpp"
 
 namespace grainfield::randomfield {
 namespace {

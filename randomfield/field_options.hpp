@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "kernels/vec3.hpp"
-#include "randomfield/correlation.hpp"
+#include "randomfield/covariance/correlation.hpp"
 #include "randomfield/grid.hpp"
-#include "randomfield/marginal_options.hpp"
+#include "randomfield/marginals/marginal_options.hpp"
 
 namespace grainfield::randomfield {
 

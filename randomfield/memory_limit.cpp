@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 
 namespace grainfield::randomfield {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/descriptor.hpp"
 #include "core/files/text_file.hpp"
 

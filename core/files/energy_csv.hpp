@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/energy.hpp"
+#include "core/scene/energy.hpp"
 
 namespace grainfield::core {
 

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/hdf5_reader.hpp"
 #include "core/files/sphere_file.hpp"
 #include "core/files/sphere_formats.hpp"

@@ -4,7 +4,7 @@
 
 #include <system_error>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 
 namespace grainfield::core {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 
 namespace grainfield::core {
 

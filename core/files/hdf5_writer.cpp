@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 
 namespace grainfield::core {
 namespace {

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 
 namespace grainfield::core {
 namespace {

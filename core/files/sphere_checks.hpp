@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "core/particle_store.hpp"
+#include "core/scene/particle_store.hpp"
 
 namespace grainfield::core {
 

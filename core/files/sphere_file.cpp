@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/sphere_formats.hpp"
 #include "core/files/text_file.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/particle_store.hpp"
+#include "core/scene/particle_store.hpp"
 
 namespace grainfield::core {
 

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/text_file.hpp"
 
 namespace grainfield::core {

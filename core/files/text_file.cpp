@@ -11,7 +11,7 @@
 #include <cmath>
 #include <system_error>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 
 namespace grainfield::core {
 namespace {

@@ -6,7 +6,7 @@
 #include <cereal/types/string.hpp>
 #include <utility>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/state/checkpoint_file.hpp"
 
 namespace grainfield::core {

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/checksum.hpp"
 #include "core/files/text_file.hpp"

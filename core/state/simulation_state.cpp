@@ -5,8 +5,8 @@
 #include <cereal/archives/binary.hpp>
 #include <cereal/types/string.hpp>
 
-#include "core/errors.hpp"
-#include "core/reference_engine.hpp"
+#include "core/base/errors.hpp"
+#include "core/reference/reference_engine.hpp"
 #include "core/simulation.hpp"
 #include "core/state/world_state.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 // What a world carries from step to step, for the archives of checkpoints.
 
+#include "core/scene/world.hpp"
 #include "core/state/bytes.hpp"
-#include "core/world.hpp"
 
 namespace grainfield::core {
 

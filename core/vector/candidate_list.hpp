@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/particle_store.hpp"
+#include "core/scene/particle_store.hpp"
 #include "kernels/vector/records.hpp"
 
 namespace grainfield::core {

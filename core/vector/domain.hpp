@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "core/scene/world.hpp"
 #include "core/vector/candidate_list.hpp"
-#include "core/world.hpp"
 #include "kernels/vector/vector_kernels.hpp"
 
 namespace grainfield::core {

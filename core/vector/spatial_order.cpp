@@ -4,7 +4,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "core/tasks.hpp"
+#include "core/base/tasks.hpp"
 
 namespace grainfield::core {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/particle_store.hpp"
+#include "core/scene/particle_store.hpp"
 
 namespace grainfield::core {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/random.hpp"
+#include "core/base/random.hpp"
 #include "triaxial/campaign/stopping.hpp"
 #include "triaxial/statistics/bootstrap.hpp"
 #include "triaxial/statistics/moments.hpp"

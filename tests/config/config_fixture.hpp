@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "tests/message_of.hpp"
 
 namespace grainfield::triaxial {

@@ -29,7 +29,7 @@ Vec3 angular_momentum(const Simulation& sim) {
     return sum;
 }
 
-const std::string page = "Conservation";
+const std::string conservation_page = "Conservation";
 
 using Conservation = KernelTest;
 
@@ -59,7 +59,7 @@ TEST_P(Conservation, MomentumAndAngularMomentumOfAFrictionalCloud) {
         angular_change = std::max(angular_change, (angular_momentum(sim) - l0).norm());
     }
     EXPECT_GT(most, 100);
-    verify::Case row{.scene = page,
+    verify::Case row{.scene = conservation_page,
                      .quantity = "momentum of 216 frictional spheres, largest change",
                      .closed_form = "0",
                      .source = "conservation",
@@ -99,7 +99,7 @@ TEST_P(Conservation, EnergyOfAThousandSpheresInABox) {
     // (w h)^2/4 either way, without bias: thousands of impacts over 1000 spheres average out.
     const double drift = energy_drift(table(), 20000, 0.05);
     RecordProperty("drift", std::to_string(drift));
-    verify::record({.scene = page,
+    verify::record({.scene = conservation_page,
                     .quantity = "energy of 1000 frictionless spheres, 20,000 steps, "
                                 "largest relative change",
                     .closed_form = "0",

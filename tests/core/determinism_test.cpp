@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/servo.hpp"
+#include "core/drive/servo.hpp"
 #include "tests/core/test_scenes.hpp"
 
 namespace grainfield::core {

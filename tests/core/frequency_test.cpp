@@ -1,7 +1,7 @@
 // The highest frequency of a network: the estimate against the dense eigenvalue problem, and
 // against the exact values of infinite lattices.
 
-#include "core/frequency.hpp"
+#include "core/drive/frequency.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/step_control.hpp"
+#include "core/drive/step_control.hpp"
 #include "tests/core/test_scenes.hpp"
 #include "tests/verification/record.hpp"
 

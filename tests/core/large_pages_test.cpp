@@ -1,4 +1,4 @@
-#include "core/large_pages.hpp"
+#include "core/base/large_pages.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/aligned.hpp"
-#include "core/random.hpp"
+#include "core/base/aligned.hpp"
+#include "core/base/random.hpp"
 
 namespace grainfield::core {
 namespace {

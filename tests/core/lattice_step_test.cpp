@@ -8,15 +8,13 @@
 #include <cmath>
 #include <vector>
 
-#include "core/driver.hpp"
+#include "core/drive/driver.hpp"
 #include "tests/core/test_scenes.hpp"
 #include "tests/verification/record.hpp"
 
 namespace grainfield::core {
 namespace {
 
-const double mass = sphere_mass(test_radius);
-const double stiffness = 0.5 * test_radius * test_stiffness;
 constexpr double overlap = 1e-3 * test_radius;
 
 /// n^3 spheres between walls half a spacing beyond them. The walls are rigid: springs of 2 K_n and
@@ -37,11 +35,11 @@ Scene cubic_lattice(int n, double lambda) {
 }
 
 double cubic_bound(double lambda) {
-    return std::sqrt(mass / stiffness) *
+    return std::sqrt(test_mass / test_kn) *
            std::min(1 / std::sqrt(1 + 2 * lambda), std::sqrt(0.2) / std::sqrt(lambda));
 }
 
-const std::string page = "Time step of a simple cubic lattice";
+const std::string lattice_step_page = "Time step of a simple cubic lattice";
 const std::string bound_form = "sqrt(m/K_n) min(1/sqrt(1 + 2 lambda), sqrt(0.2/lambda))";
 std::string quantity(const std::string& what, double lambda) {
     return fmt::format("{}, lambda = {}", what, lambda);
@@ -81,7 +79,7 @@ TEST_P(LatticeStep, SimpleCubicEstimateIsTheInfiniteLattices) {
         Simulation sim(cubic_lattice(4, lambda), table());
         sim.compute_forces();
         // A lattice of 64 has the mode exactly; Lanczos finds it to half a per cent.
-        verify::record({.scene = page,
+        verify::record({.scene = lattice_step_page,
                         .quantity = quantity("stability limit, estimated", lambda),
                         .closed_form = bound_form,
                         .source = "highest mode of the infinite lattice",
@@ -101,7 +99,7 @@ TEST_P(LatticeStep, StableBelowTheBoundAndGrowingAbove) {
         // Just beyond the bound the motion grows by exp(2 acosh(h/bound)) a step: which bound does
         // the growth found over many steps belong to?
         const double many = growth(table(), lambda, 1.01 * cubic_bound(lambda), steps, tiny);
-        verify::record({.scene = page,
+        verify::record({.scene = lattice_step_page,
                         .quantity = quantity("stability limit, from the growth at 1.01", lambda),
                         .closed_form = bound_form,
                         .source = "leapfrog on the highest mode",

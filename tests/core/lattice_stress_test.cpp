@@ -7,14 +7,13 @@
 #include <cmath>
 #include <vector>
 
-#include "core/measures.hpp"
+#include "core/drive/measures.hpp"
 #include "tests/core/test_scenes.hpp"
 #include "tests/verification/record.hpp"
 
 namespace grainfield::core {
 namespace {
 
-const double stiffness = 0.5 * test_radius * test_stiffness;  // K_n
 constexpr double R = test_radius;
 
 /// n^3 spheres with overlaps delta[a] along each axis, squeezed by six walls; rigid walls stand
@@ -37,7 +36,7 @@ Scene cubic_block(int n, const Vec3& delta, const Eigen::Matrix3d& turn) {
     return scene;
 }
 
-const std::string page = "Stress and moduli of lattices";
+const std::string lattice_stress_page = "Stress and moduli of lattices";
 
 using LatticeStress = KernelTest;
 
@@ -52,11 +51,11 @@ TEST_P(LatticeStress, SimpleCubicStressIsExactInAllNineComponents) {
         // n^2 chains along each axis, each of force K_n delta.
         Eigen::Matrix3d expected = Eigen::Matrix3d::Zero();
         for (int a = 0; a < 3; ++a)
-            expected(a, a) = n * n * stiffness * delta[a] * size[a] / size.prod();
+            expected(a, a) = n * n * test_kn * delta[a] * size[a] / size.prod();
         expected = (turn * expected * turn.transpose()).eval();
         const Eigen::Matrix3d stress = mean_stress(sim, size.prod());
         // Overlaps of 1e-3 R in coordinates of 10 R.
-        verify::record({.scene = page,
+        verify::record({.scene = lattice_stress_page,
                         .quantity = "simple cubic: stress tensor, largest error of nine components",
                         .closed_form = "n^2 K_n delta_a L_a/V, turned",
                         .source = "Love, Weber",
@@ -80,26 +79,25 @@ TEST_P(LatticeStress, SimpleCubicModuli) {
         // Double takes overlaps from positions; single precision keeps separations instead.
         const double rounding = is_mixed() ? roundoff(4) : roundoff(100) / strain;
         const std::string why = "the strain itself, and round-off over it";
-        verify::record({.scene = page,
+        verify::record({.scene = lattice_stress_page,
                         .quantity = fmt::format("simple cubic: C11, strain {:g}", strain),
                         .closed_form = "K_n/(2 R)",
                         .source = "lattice sum",
                         .unit = "Pa",
                         .tolerance = why},
-                       GetParam().name, stiffness / (2 * R),
-                       mean_stress(one, volume)(0, 0) / strain,
-                       2 * strain * stiffness / (2 * R) + rounding * stiffness / R);
+                       GetParam().name, test_kn / (2 * R), mean_stress(one, volume)(0, 0) / strain,
+                       2 * strain * test_kn / (2 * R) + rounding * test_kn / R);
         Simulation all(cubic_block(n, Vec3::Constant(delta), Eigen::Matrix3d::Identity()), table());
         all.compute_forces();
-        verify::record({.scene = page,
+        verify::record({.scene = lattice_stress_page,
                         .quantity = fmt::format("simple cubic: bulk modulus, strain {:g}", strain),
                         .closed_form = "K_n/(6 R)",
                         .source = "lattice sum",
                         .unit = "Pa",
                         .tolerance = why},
-                       GetParam().name, stiffness / (6 * R),
+                       GetParam().name, test_kn / (6 * R),
                        mean_stress(all, volume).trace() / 3 / (3 * strain),
-                       2 * strain * stiffness / (6 * R) + rounding * stiffness / R);
+                       2 * strain * test_kn / (6 * R) + rounding * test_kn / R);
     }
 }
 
@@ -136,14 +134,14 @@ Eigen::Matrix3d fcc_stress_change(const kernels::KernelTable& table, double lamb
 TEST_P(LatticeStress, FccModuli) {
     const double e = 1e-6;
     for (double lambda : {0.1, 0.5, 1.0}) {
-        const double c = stiffness / (std::sqrt(2.0) * R);
+        const double c = test_kn / (std::sqrt(2.0) * R);
         Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
         strain(0, 0) = e;
         // The initial stress changes moduli by its strain, 1e-5; the strain itself by 1e-6.
         const double tolerance = 1e-4 * c;
         const Eigen::Matrix3d axial = fcc_stress_change(table(), lambda, strain) / e;
         const auto check = [&](const char* name, const char* form, double expected, double found) {
-            verify::record({.scene = page,
+            verify::record({.scene = lattice_stress_page,
                             .quantity = fmt::format("FCC: {}, lambda = {}", name, lambda),
                             .closed_form = form,
                             .source = "lattice sum",

@@ -20,7 +20,7 @@ struct Closing {
 };
 
 /// 343 spheres fall together in a box whose lid comes down and whose one side moves.
-Closing collapse(const kernels::KernelTable& table, double wh, bool wall_friction) {
+Closing closing_collapse(const kernels::KernelTable& table, double wh, bool wall_friction) {
     Scene scene = scene_of(loose_balls({7, 7, 7}, 1.05, 0.5), 0.4);
     scene.stiffness_ratio = 0.3;
     scene.walls = box_walls(loose_box({7, 7, 7}, 1.05),
@@ -48,8 +48,8 @@ Closing collapse(const kernels::KernelTable& table, double wh, bool wall_frictio
 
 TEST_P(Ledger, ClosesToATenthOfAPercentAndWithTheStep) {
     for (bool wall_friction : {false, true}) {
-        const Closing coarse = collapse(table(), 0.2, wall_friction);
-        const Closing fine = collapse(table(), 0.05, wall_friction);
+        const Closing coarse = closing_collapse(table(), 0.2, wall_friction);
+        const Closing fine = closing_collapse(table(), 0.05, wall_friction);
         // Everything took part.
         EXPECT_GT(fine.last.friction_work, 0.01 * fine.through);
         EXPECT_GT(fine.last.damping_work, 0.01 * fine.through);

@@ -10,9 +10,7 @@
 namespace grainfield::core {
 namespace {
 
-const double mass = sphere_mass(test_radius);
-const double stiffness = 0.5 * test_radius * test_stiffness;  // of sphere and plane alike
-const double plane_omega = std::sqrt(stiffness / mass);
+const double plane_omega = std::sqrt(test_kn / test_mass);
 
 /// A sphere that just touches the plane y = 0, in the frame turned by `turn`.
 Scene sphere_on_plane(const Vec3& v, const Vec3& w, double friction, double lambda,
@@ -166,7 +164,7 @@ TEST_P(Grazing, PlaneGivesNoMoreThanTheNormalStepErrorAtAnyPhase) {
                     scene.spheres.position.y[0] -= phase * step * v.y();
                     Simulation sim(std::move(scene), table());
                     const double before = motion_energy(sim);
-                    const double normal = 0.5 * mass * v.y() * v.y();
+                    const double normal = 0.5 * test_mass * v.y() * v.y();
                     run_until_apart(sim, step);
                     ASSERT_LE(motion_energy(sim),
                               before * (1 + roundoff(4500)) + 0.25 * wh * wh * normal)
@@ -187,7 +185,7 @@ TEST_P(Grazing, SpheresNeverGiveEnergy) {
                 Simulation sim(std::move(scene), table());
                 const double before = motion_energy(sim);
                 run_until_apart(sim, step);
-                const double normal = 0.25 * mass * v.x() * v.x();
+                const double normal = 0.25 * test_mass * v.x() * v.x();
                 ASSERT_LE(motion_energy(sim),
                           before * (1 + roundoff(4500)) + 0.25 * wh * wh * normal)
                     << wh << " " << degrees << " " << mu;

@@ -1,6 +1,6 @@
 // Random numbers: known answers, accuracy of the normals, distribution and independence.
 
-#include "core/random.hpp"
+#include "core/base/random.hpp"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
@@ -12,7 +12,7 @@
 #include <set>
 #include <vector>
 
-#include "core/normal_quantile.hpp"
+#include "core/base/normal_quantile.hpp"
 #include "tests/larger.hpp"
 
 namespace grainfield::core {

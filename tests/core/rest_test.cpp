@@ -5,15 +5,11 @@
 #include <cmath>
 #include <vector>
 
-#include "core/measures.hpp"
+#include "core/drive/measures.hpp"
 #include "tests/core/test_scenes.hpp"
 
 namespace grainfield::core {
 namespace {
-
-const double mass = sphere_mass(test_radius);
-const double stiffness = 0.5 * test_radius * test_stiffness;
-constexpr double g = 9.81;
 
 using AtRest = KernelTest;
 
@@ -29,12 +25,12 @@ TEST_P(AtRest, OverlapCarriesTheWeight) {
     scene.gravity = Vec3(0, -g, 0);
     scene.damping = {0.2, 0.2};
     Simulation sim(std::move(scene), table());
-    settle(sim, 0.1 * std::sqrt(mass / stiffness), 20000);
+    settle(sim, 0.1 * std::sqrt(test_mass / test_kn), 20000);
     const double overlap = test_radius - sim.spheres().position.y[0];
     // Local damping stops at round-off of the position, which is 100 times the overlap.
-    EXPECT_NEAR(overlap, mass * g / stiffness, roundoff(1e5) * mass * g / stiffness);
-    EXPECT_NEAR(sim.wall_loads()[0].force.y(), -mass * g, roundoff(1e5) * mass * g);
-    EXPECT_EQ(sim.wall_loads()[0].stiffness, stiffness);
+    EXPECT_NEAR(overlap, test_mass * g / test_kn, roundoff(1e5) * test_mass * g / test_kn);
+    EXPECT_NEAR(sim.wall_loads()[0].force.y(), -test_mass * g, roundoff(1e5) * test_mass * g);
+    EXPECT_EQ(sim.wall_loads()[0].stiffness, test_kn);
     EXPECT_EQ(sim.wall_loads()[0].contacts, 1);
     EXPECT_LT(sim.unbalanced_force_ratio(), roundoff(1e5));
 }
@@ -48,16 +44,17 @@ TEST_P(AtRest, ColumnCarriesAllAbove) {
     scene.gravity = Vec3(0, -g, 0);
     scene.damping = {0.2, 0.2};
     Simulation sim(std::move(scene), table());
-    settle(sim, 0.1 * std::sqrt(mass / stiffness), 60000);
+    settle(sim, 0.1 * std::sqrt(test_mass / test_kn), 60000);
     double below = -test_radius;
     for (int k = 0; k < n; ++k) {
         const double y = sim.spheres().position.y[static_cast<std::size_t>(k)];
         const double overlap = 2 * test_radius - (y - below);
-        const double expected = (n - k) * mass * g / stiffness;
+        const double expected = (n - k) * test_mass * g / test_kn;
         EXPECT_NEAR(overlap, expected, roundoff(1e7) * expected) << k;
         below = y;
     }
-    EXPECT_NEAR(-sim.wall_loads()[0].force.y(), n * mass * g, roundoff(1e7) * n * mass * g);
+    EXPECT_NEAR(-sim.wall_loads()[0].force.y(), n * test_mass * g,
+                roundoff(1e7) * n * test_mass * g);
 }
 
 TEST_P(AtRest, TwoSpheresSqueezedBetweenWallsAreSpringsInSeries) {
@@ -110,7 +107,7 @@ TEST_P(AtRest, GearsTurnOnForEver) {
 
 TEST_P(AtRest, SpinningInPlaceIsBrakedByTheTwistOnlyThroughSlip) {
     // No rolling or twisting resistance: a spin about the normal of its only contact goes on.
-    const double overlap = mass * g / stiffness;
+    const double overlap = test_mass * g / test_kn;
     Scene scene =
         scene_of({Ball{.x = Vec3(0, test_radius - overlap, 0), .w = Vec3(0, 30, 0)}}, 0.6);
     scene.walls = {plane(Vec3::Zero(), Vec3::UnitY(), 0.6)};

@@ -11,15 +11,12 @@
 namespace grainfield::core {
 namespace {
 
-const double mass = sphere_mass(test_radius);
-const double stiffness = 0.5 * test_radius * test_stiffness;
-const double omega = std::sqrt(stiffness / mass);
-constexpr double g = 9.81;
+const double omega = std::sqrt(test_kn / test_mass);
 
 /// A sphere in the plane y = 0 under gravity inclined by theta, at its equilibrium overlap, all
 /// turned by `turn`.
 Scene resting_sphere(double friction, double theta, const Vec3& v, const Eigen::Matrix3d& turn) {
-    const double overlap = mass * g * std::cos(theta) / stiffness;
+    const double overlap = test_mass * g * std::cos(theta) / test_kn;
     Scene scene =
         scene_of({Ball{.x = turn * Vec3(0, test_radius - overlap, 0), .v = turn * v}}, friction);
     scene.walls = {plane(Vec3::Zero(), turn * Vec3::UnitY(), friction)};
@@ -44,7 +41,7 @@ TEST_P(Sliding, TurnsToRollingAtFiveSeventhsOfTheSpeed) {
                                          turn.transpose() * now.spin);
         };
         // The spring needs mu m g/K_s of slip before it slides: 5e-4 m of some 0.15 m.
-        const double build_up = mu * mass * g / (0.1 * stiffness) / v0;
+        const double build_up = mu * test_mass * g / (0.1 * test_kn) / v0;
         while (sim.time() < 0.5 * rolling_time) run_steps(sim, step, 1);
         auto [v, w] = motion();
         const double t0 = sim.time(), vx0 = v.x(), wz0 = w.z();
@@ -96,7 +93,7 @@ TEST_P(Incline, RollsAtFiveSeventhsWhileFrictionHolds) {
     for (double theta : {0.1, 0.6, 1.1})
         for (double margin : {1.0001, 3.0}) {
             const double mu = margin * 2.0 / 7.0 * std::tan(theta);
-            const double shear = 2.0 / 7.0 * mass * g * std::sin(theta);
+            const double shear = 2.0 / 7.0 * test_mass * g * std::sin(theta);
             const double a = speed_after(table(), mu, theta, shear, 0.5, some_rotation());
             // Constant force: exact but for round-off in an overlap of 5e-4 m.
             EXPECT_NEAR(a, 5.0 / 7.0 * g * std::sin(theta), roundoff(1e6) * g) << theta;
@@ -107,7 +104,7 @@ TEST_P(Incline, SlipsAboveTheLimit) {
     for (double theta : {0.1, 0.6, 1.1})
         for (double margin : {0.9999, 0.3}) {
             const double mu = margin * 2.0 / 7.0 * std::tan(theta);
-            const double shear = mu * mass * g * std::cos(theta);
+            const double shear = mu * test_mass * g * std::cos(theta);
             const double a = speed_after(table(), mu, theta, shear, 0.5, some_rotation());
             EXPECT_NEAR(a, g * (std::sin(theta) - mu * std::cos(theta)), roundoff(1e6) * g)
                 << theta;

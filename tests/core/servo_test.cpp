@@ -1,6 +1,6 @@
 // Servo walls hold their stress while another wall moves, and never exceed their speed.
 
-#include "core/servo.hpp"
+#include "core/drive/servo.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/driver.hpp"
-#include "core/measures.hpp"
+#include "core/drive/driver.hpp"
+#include "core/drive/measures.hpp"
 #include "tests/core/test_scenes.hpp"
 #include "tests/larger.hpp"
 

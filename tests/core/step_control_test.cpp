@@ -1,6 +1,6 @@
 // When the step control looks again, what it does for new neighbours, and the masses it chooses.
 
-#include "core/step_control.hpp"
+#include "core/drive/step_control.hpp"
 
 #include <gtest/gtest.h>
 

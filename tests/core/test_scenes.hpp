@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/random.hpp"
+#include "core/base/random.hpp"
 #include "core/simulation.hpp"
 #include "tests/kernels/kernel_tables.hpp"
 
@@ -21,6 +21,10 @@ inline constexpr double test_radius = 0.05;     // [m]
 inline constexpr double test_stiffness = 1e6;   // k_n of spheres and walls [Pa]
 inline constexpr double test_density = 2650.0;  // [kg/m3]
 inline constexpr double pi = std::numbers::pi;
+inline constexpr double g = 9.81;                                      // [m/s2]
+inline constexpr double test_kn = 0.5 * test_radius * test_stiffness;  // K_n of two of them [N/m]
+inline constexpr double test_mass =
+    test_density * 4.0 / 3.0 * pi * test_radius * test_radius * test_radius;  // [kg]
 
 struct Ball {
     Vec3 x = Vec3::Zero();              // [m]

@@ -7,9 +7,9 @@
 #include <limits>
 #include <string>
 
-#include "core/driver.hpp"
-#include "core/errors.hpp"
-#include "core/scene.hpp"
+#include "core/base/errors.hpp"
+#include "core/drive/driver.hpp"
+#include "core/scene/scene.hpp"
 #include "tests/core/test_scenes.hpp"
 #include "tests/reliability/record.hpp"
 

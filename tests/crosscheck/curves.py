@@ -32,7 +32,7 @@ def smooth(strain, values):
 
 
 def results(path):
-    """Peak [Pa], strain there, E50 [Pa]: of the recorded points, as triaxial/test/curve.cpp."""
+    """Peak [Pa], strain there, E50 [Pa]: of the recorded points, as triaxial/realization/curve.cpp."""
     strain, q, _ = read(path)
     top = int(np.argmax(q))
     half = 0.5 * q[top]

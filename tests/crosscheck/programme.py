@@ -1,6 +1,6 @@
 """What the walls do, for YADE and LAMMPS: either the isotropic compression of compression.py or
-the triaxial test, with servos like those of Grainfield (core/servo.cpp) and in the same stages
-(packing/isotropic.cpp, triaxial/test/shear.cpp).
+the triaxial test, with servos like those of Grainfield (core/drive/servo.cpp) and in the same stages
+(packing/isotropic.cpp, triaxial/realization/shear.cpp).
 
 A code brings a `host` with
   walls        planes now: x low, x high, y low, y high, z low, z high [m]
@@ -35,7 +35,7 @@ class Compression:
 
 
 class Servo:
-    """Integral servo of one wall, as core/servo.hpp describes it."""
+    """Integral servo of one wall, as core/drive/servo.hpp describes it."""
     GAIN, INTEGRAL = 0.8, 0.02
 
     def __init__(self, wall, stress, step):

@@ -6,7 +6,7 @@
 #include <csignal>
 #include <fstream>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/text_file.hpp"
 #include "tests/files/sample.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/hdf5_writer.hpp"
 #include "core/files/sphere_formats.hpp"
 #include "core/files/text_file.hpp"

@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "tests/files/sample.hpp"
 
 namespace grainfield::core {

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/hdf5_reader.hpp"
 #include "core/files/hdf5_writer.hpp"
 #include "core/files/sphere_formats.hpp"

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/text_file.hpp"
 #include "tests/files/sample.hpp"
 

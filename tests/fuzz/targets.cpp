@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/sphere_checks.hpp"
 #include "core/files/sphere_formats.hpp"
 #include "tests/fuzz/made_h5.hpp"

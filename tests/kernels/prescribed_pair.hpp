@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/aligned.hpp"
+#include "core/base/aligned.hpp"
 #include "kernels/vector/vector_kernels.hpp"
 #include "tests/kernels/kernel_tables.hpp"
 

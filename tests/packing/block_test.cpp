@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/measures.hpp"
+#include "core/drive/measures.hpp"
 #include "tests/packing/small_samples.hpp"
 
 namespace grainfield::packing {

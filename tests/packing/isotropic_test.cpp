@@ -6,16 +6,18 @@
 #include <cmath>
 #include <vector>
 
-#include "core/measures.hpp"
+#include "core/drive/box.hpp"
+#include "core/drive/measures.hpp"
+#include "core/drive/servo.hpp"
 #include "tests/packing/small_samples.hpp"
 
 namespace grainfield::packing {
 namespace {
 
 void expect_at_stress(const core::Simulation& simulation, double stress) {
-    const Vec3 size = box_dimensions(simulation);
+    const Vec3 size = core::box_dimensions(simulation);
     for (std::size_t w = 0; w < 6; ++w) {
-        const double area = wall_area(size, static_cast<int>(w) / 2);
+        const double area = core::wall_area(size, static_cast<int>(w) / 2);
         // 0.2 % when it was measured, and the last step's motion on top.
         EXPECT_NEAR(core::wall_compression(simulation, w) / area, stress, 3e-3 * stress) << w;
         EXPECT_EQ(simulation.walls()[w].velocity, Vec3::Zero());
@@ -23,18 +25,19 @@ void expect_at_stress(const core::Simulation& simulation, double stress) {
 }
 
 double solid_fraction(const core::Simulation& simulation) {
-    return simulation.spheres().solid_volume() / box_dimensions(simulation).prod();
+    return simulation.spheres().solid_volume() / core::box_dimensions(simulation).prod();
 }
 
 double mean_wall_stress(const core::Simulation& simulation) {
-    return (axis_stress(simulation, 0) + axis_stress(simulation, 1) + axis_stress(simulation, 2)) /
+    return (core::axis_stress(simulation, 0) + core::axis_stress(simulation, 1) +
+            core::axis_stress(simulation, 2)) /
            3;
 }
 
 /// S of physics.md with the contacts on walls: under an affine compression a sphere's overlap with
 /// a wall grows with its distance from it.
 double stiffness_sum_with_walls(const core::Simulation& simulation) {
-    const double volume = box_dimensions(simulation).prod();
+    const double volume = core::box_dimensions(simulation).prod();
     double sum = core::stiffness_sum(simulation, volume);
     for (const core::TouchingContact& contact : simulation.touching()) {
         if (contact.j >= 0) continue;
@@ -70,10 +73,10 @@ TEST(Isotropic, SimpleCubicLatticeInClosedForm) {
         compress_isotropically(driver, stress);
         expect_at_stress(simulation, stress);
         // A row of n spheres has n + 1 contacts, each under the force of its share of the wall.
-        const Vec3 size = box_dimensions(simulation);
+        const Vec3 size = core::box_dimensions(simulation);
         volume[k] = size.prod();
         for (int a = 0; a < 3; ++a) {
-            const double force = stress * wall_area(size, a) / (n * n);
+            const double force = stress * core::wall_area(size, a) / (n * n);
             const double shortening = (n + 1) * force / stiffness;
             EXPECT_NEAR(2 * n * radius - size[a], shortening, 4e-3 * shortening);
         }
@@ -107,7 +110,7 @@ TEST(Isotropic, RandomSampleReachesTheStressAndItsStiffnessIsBounded) {
     expect_at_stress(simulation, 1e6);
     EXPECT_LT(simulation.unbalanced_force_ratio(), 3e-3);
 
-    const Vec3 size = box_dimensions(simulation);
+    const Vec3 size = core::box_dimensions(simulation);
     const Eigen::Matrix3d stress = core::mean_stress(simulation, size.prod());
     for (int a = 0; a < 3; ++a) EXPECT_NEAR(stress(a, a), 1e6, 0.01 * 1e6) << a;
     EXPECT_LT((stress - stress.transpose()).norm(), 0.01 * 1e6);

@@ -9,7 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
+#include "core/drive/box.hpp"
 #include "packing/isotropic.hpp"
 #include "tests/packing/small_samples.hpp"
 #include "tests/reliability/record.hpp"
@@ -82,7 +83,7 @@ TEST(Pack, IsotropicStressReplacesGravity) {
     simulation.compute_forces(true);
     // Normal forces follow from the positions, so the walls' loads are those of the packing.
     for (int axis = 0; axis < 3; ++axis)
-        EXPECT_NEAR(axis_stress(simulation, axis), 50e3, 3e-3 * 50e3) << axis;
+        EXPECT_NEAR(core::axis_stress(simulation, axis), 50e3, 3e-3 * 50e3) << axis;
     EXPECT_NEAR(p.porosity, 1 - p.spheres.solid_volume() / p.box.volume(), 1e-12);
 }
 

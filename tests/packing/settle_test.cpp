@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/servo.hpp"
+#include "core/drive/servo.hpp"
 #include "tests/packing/small_samples.hpp"
 
 namespace grainfield::packing {

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "core/driver.hpp"
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
+#include "core/drive/driver.hpp"
 #include "packing/block.hpp"
 #include "packing/deposit.hpp"
 #include "packing/isotropic.hpp"

@@ -54,6 +54,14 @@ class Workplace {
     std::filesystem::path folder_;
 };
 
+/// How a scene begins whose spheres stand in spheres.csv.
+inline const std::string scene_head = "[particles]\nfile = \"spheres.csv\"\n";
+
+/// Further parts of scenes: gravity, and a floor with friction.
+inline const std::string falling = "[gravity]\nacceleration = [0, -9.81, 0]\n";
+inline const std::string floor_wall =
+    "[[wall]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nfriction_angle = 0.3\n";
+
 /// Arguments of `pack` for 120 spheres in two blocks on one thread, a second's work.
 extern const std::vector<std::string> small_packing;
 

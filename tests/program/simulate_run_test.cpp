@@ -19,11 +19,6 @@ namespace {
 using testing::AnyOf;
 using testing::HasSubstr;
 
-const std::string head = "[particles]\nfile = \"spheres.csv\"\n";
-const std::string falling = "[gravity]\nacceleration = [0, -9.81, 0]\n";
-const std::string floor_wall =
-    "[[wall]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nfriction_angle = 0.3\n";
-
 /// A lattice of n x n x n spheres of two sizes, slightly pressed together.
 std::string lattice(int n) {
     std::string text = "x,y,z,radius,vx,vy,vz\n";
@@ -42,7 +37,8 @@ std::string lattice(int n) {
 
 TEST(SimulateRun, SummaryIsComplete) {
     const Workplace place;
-    const std::string scene = head + "[time]\nstep = 1e-5\nend = 1e-3\n" + falling + floor_wall;
+    const std::string scene =
+        scene_head + "[time]\nstep = 1e-5\nend = 1e-3\n" + falling + floor_wall;
     const Outcome run = place.simulate(lattice(3), scene, {"--threads", "2"});
     ASSERT_EQ(run.code, 0) << run.err;
     const nlohmann::json s = place.json("run/summary.json");
@@ -68,7 +64,7 @@ TEST(SimulateRun, AForcedInstructionSetRunsOrIsRefused) {
         for (const std::string precision : {"double", "mixed"}) {
             const std::string name = kernels::name(isa);
             const Workplace place;
-            const std::string scene = head + "[time]\nstep = 1e-5\nend = 1e-3\n" + floor_wall;
+            const std::string scene = scene_head + "[time]\nstep = 1e-5\nend = 1e-3\n" + floor_wall;
             const Outcome run = place.simulate(
                 lattice(3), scene, {"--isa", name, "--set", "solver.precision=" + precision});
             if (!kernels::runs_here(isa)) {
@@ -85,14 +81,14 @@ TEST(SimulateRun, AForcedInstructionSetRunsOrIsRefused) {
 
 TEST(SimulateRun, QuietSaysNothingOnStderr) {
     const Workplace place;
-    const std::string scene = head + "[time]\nstep = 1e-5\nend = 1e-3\n";
+    const std::string scene = scene_head + "[time]\nstep = 1e-5\nend = 1e-3\n";
     EXPECT_THAT(place.simulate(lattice(2), scene).err, HasSubstr("simulating"));
     EXPECT_EQ(place.simulate(lattice(2), scene, {"--quiet"}).err, "");
 }
 
 TEST(SimulateRun, SettingsOverrideTheScene) {
     const Workplace place;
-    const std::string scene = head + "[time]\nstep = 1e-5\nend = 1e-3\n";
+    const std::string scene = scene_head + "[time]\nstep = 1e-5\nend = 1e-3\n";
     const Outcome run =
         place.simulate(lattice(2), scene, {"--set", "time.end=2e-3", "--set", "time.step=1e-4"});
     ASSERT_EQ(run.code, 0) << run.err;
@@ -103,8 +99,8 @@ TEST(SimulateRun, ThreadsDoNotChangeTheState) {
     const Workplace place;
     // Enough spheres that loops are shared out among threads.
     const std::string spheres = lattice(18);
-    const std::string scene = head + "[time]\nstep = 2e-5\nend = 1.2e-3\n" + falling + floor_wall +
-                              "[output]\ninterval = 1\n[damping]\nforce = 0.2\n";
+    const std::string scene = scene_head + "[time]\nstep = 2e-5\nend = 1.2e-3\n" + falling +
+                              floor_wall + "[output]\ninterval = 1\n[damping]\nforce = 0.2\n";
     std::string hash;
     for (const char* threads : {"1", "2", "3", "4"}) {
         const Outcome run = place.simulate(spheres, scene, {"--threads", threads});
@@ -119,7 +115,7 @@ TEST(SimulateRun, AnExplosionEndsWithThreeAndItsState) {
     const Workplace place;
     const Outcome run =
         place.simulate("x,y,z,radius\n0,0.1,0,0.1\n0.195,0.1,0,0.1\n",
-                       head + "[time]\nstep = 5e-3\nend = 1000\n" + falling + floor_wall);
+                       scene_head + "[time]\nstep = 5e-3\nend = 1000\n" + falling + floor_wall);
     EXPECT_EQ(run.code, 3) << run.err;
     const std::string state = place.path("run/state.h5");
     EXPECT_THAT(run.err, HasSubstr(state));
@@ -135,8 +131,8 @@ TEST(SimulateRun, AnExplosionEndsWithThreeAndItsState) {
 
 TEST(SimulateRun, ASignalEndsWith130AndResumingGivesTheSameFiles) {
     // Spheres that fall and bounce for half a second of wall time or so, looked at often.
-    const std::string scene = head + "[time]\nstep = 2e-5\nend = 0.4\n" + falling + floor_wall +
-                              "[output]\ninterval = 1e-3\n[damping]\nforce = 0.1\n";
+    const std::string scene = scene_head + "[time]\nstep = 2e-5\nend = 0.4\n" + falling +
+                              floor_wall + "[output]\ninterval = 1e-3\n[damping]\nforce = 0.1\n";
     const Workplace undisturbed;
     ASSERT_EQ(undisturbed.simulate(lattice(4), scene).code, 0);
     for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
@@ -181,8 +177,8 @@ TEST(SimulateRun, ASignalEndsWith130AndResumingGivesTheSameFiles) {
 }
 
 TEST(SimulateRun, ResumesNothingButWhatItKnows) {
-    const std::string scene = head + "[time]\nstep = 2e-5\nend = 0.4\n" + falling + floor_wall +
-                              "[output]\ninterval = 1e-3\n";
+    const std::string scene = scene_head + "[time]\nstep = 2e-5\nend = 0.4\n" + falling +
+                              floor_wall + "[output]\ninterval = 1e-3\n";
     const Workplace place;
     place.write("spheres.csv", lattice(4));
     const std::string file = place.write("scene.toml", scene);
@@ -216,7 +212,7 @@ TEST(SimulateRun, ResumesNothingButWhatItKnows) {
 
 TEST(SimulateRun, ReusesAFolder) {
     const Workplace place;
-    const std::string scene = head + "[time]\nstep = 1e-5\nend = 1e-4\n";
+    const std::string scene = scene_head + "[time]\nstep = 1e-5\nend = 1e-4\n";
     ASSERT_EQ(place.simulate(lattice(2), scene).code, 0);
     place.write("run/mine.txt", "kept");
     ASSERT_EQ(place.simulate(lattice(3), scene).code, 0);

@@ -22,11 +22,7 @@ constexpr double mass = 2600 * 4.0 / 3.0 * std::numbers::pi * radius * radius * 
 constexpr double stiffness = 0.5 * radius * 9e8;                                         // [N/m]
 constexpr double gravity = 9.81;                                                         // [m/s2]
 
-const std::string head = "[particles]\nfile = \"spheres.csv\"\n";
-const std::string falling = "[gravity]\nacceleration = [0, -9.81, 0]\n";
 const std::string damped = "[damping]\nforce = 0.2\nmoment = 0.2\n";
-const std::string floor_wall =
-    "[[wall]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nfriction_angle = 0.3\n";
 
 std::string times(const std::string& step, const std::string& end, const std::string& interval) {
     return "[time]\nstep = " + step + "\nend = " + end + "\n[output]\ninterval = " + interval +
@@ -35,8 +31,8 @@ std::string times(const std::string& step, const std::string& end, const std::st
 
 TEST(Simulate, FreeFallWithLocalDamping) {
     const Workplace place;
-    const Outcome run = place.simulate("x,y,z,radius\n1,2,3,0.1\n",
-                                       head + times("1e-3", "0.1", "1e-2") + falling + damped);
+    const Outcome run = place.simulate(
+        "x,y,z,radius\n1,2,3,0.1\n", scene_head + times("1e-3", "0.1", "1e-2") + falling + damped);
     ASSERT_EQ(run.code, 0) << run.err;
     const Table t = read_table(place.read("run/trajectory.csv"));
     EXPECT_EQ(t.header, "time_s,id,x,y,z,vx,vy,vz,wx,wy,wz");
@@ -56,7 +52,7 @@ TEST(Simulate, HeadOnImpactGivesTheSpeedBack) {
     const Workplace place;
     const Outcome run =
         place.simulate("x,y,z,radius,vx,vy,vz\n0,0,0,0.1,0.5,0,0\n0.2001,0,0,0.1,-0.5,0,0\n",
-                       head + times("1e-6", "2e-3", "1e-6"));
+                       scene_head + times("1e-6", "2e-3", "1e-6"));
     ASSERT_EQ(run.code, 0) << run.err;
     const Table t = read_table(place.read("run/trajectory.csv"));
     ASSERT_EQ(t.rows.size(), 2 * 2001U);
@@ -80,7 +76,7 @@ TEST(Simulate, RestingSphereAndItsContact) {
     const Workplace place;
     const Outcome run =
         place.simulate("x,y,z,radius\n0,0.1,0,0.1\n",
-                       head + times("1e-5", "0.2", "0.1") + falling + damped + floor_wall);
+                       scene_head + times("1e-5", "0.2", "0.1") + falling + damped + floor_wall);
     ASSERT_EQ(run.code, 0) << run.err;
     const Table c = read_table(place.read("run/contacts.csv"));
     EXPECT_EQ(c.header,
@@ -102,7 +98,7 @@ TEST(Simulate, ContactsNameWallsAndSpheres) {
     // Second wall far to the side; a stack on the floor, pressed together by 1e-6 m.
     const Outcome run =
         place.simulate("x,y,z,radius\n0,0.099999,0,0.1\n0,0.299998,0,0.1\n",
-                       head + times("1e-6", "1e-6", "1") +
+                       scene_head + times("1e-6", "1e-6", "1") +
                            "[[wall]]\npoint = [-9, 0, 0]\nnormal = [1, 0, 0]\n" + floor_wall);
     ASSERT_EQ(run.code, 0) << run.err;
     const Table c = read_table(place.read("run/contacts.csv"));
@@ -121,7 +117,7 @@ TEST(Simulate, EnergyColumnsAddUpToAConstant) {
     const Outcome run = place.simulate(
         "x,y,z,radius,vx,vy,vz,wx,wy,wz\n0,0.1005,0,0.1,1,-1,0,0,0,5\n0.15,0.26,0,0.1,0,-1,0,0,3,"
         "0\n",
-        head + times("2e-7", "4e-3", "1e-5") + falling + damped + floor_wall +
+        scene_head + times("2e-7", "4e-3", "1e-5") + falling + damped + floor_wall +
             "velocity = [0, 0.5, 0]\n");
     ASSERT_EQ(run.code, 0) << run.err;
     const Table e = read_table(place.read("run/energy.csv"));
@@ -169,7 +165,7 @@ TEST(Simulate, AutomaticStepHitsTheEnd) {
     const Workplace place;
     const Outcome run =
         place.simulate("x,y,z,radius\n0,0.1,0,0.1\n",
-                       head + times("\"auto\"", "0.0123", "0.005") + falling + floor_wall);
+                       scene_head + times("\"auto\"", "0.0123", "0.005") + falling + floor_wall);
     ASSERT_EQ(run.code, 0) << run.err;
     const nlohmann::json summary = place.json("run/summary.json");
     EXPECT_DOUBLE_EQ(summary.at("time_s"), 0.0123);
@@ -184,7 +180,7 @@ TEST(Simulate, AutomaticStepHitsTheEnd) {
 
 TEST(Simulate, ServoHoldsItsStress) {
     const Workplace place;
-    std::string scene = head + times("\"auto\"", "0.2", "0.1") + damped;
+    std::string scene = scene_head + times("\"auto\"", "0.2", "0.1") + damped;
     const double edge = 0.2;
     for (int axis = 0; axis < 3; ++axis)
         for (int side = 0; side < 2; ++side) {

@@ -1,6 +1,6 @@
 // Circulant embedding and Karhunen-Loeve modes: exact, or refused with the numbers.
 
-#include "randomfield/circulant_generator.hpp"
+#include "randomfield/generators/circulant_generator.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 
 #include <cmath>
 
-#include "core/random.hpp"
-#include "randomfield/field_error.hpp"
-#include "randomfield/modes.hpp"
+#include "core/base/random.hpp"
+#include "randomfield/generators/modes.hpp"
+#include "randomfield/verification/field_error.hpp"
 #include "tests/randomfield/field_support.hpp"
 
 namespace grainfield::randomfield {
@@ -18,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-GridSpec grid_of(const CellCount& cells) {
+GridSpec torus_grid(const CellCount& cells) {
     return {cells, Vec3(0.25, 0.25, 0.25)};
 }
 
@@ -29,7 +29,7 @@ TEST(Circulant, IsExactForGridsOfAnyShape) {
         for (const Correlation kind :
              {Correlation::markov, Correlation::separable_markov, Correlation::gaussian,
               Correlation::spherical, Correlation::matern32, Correlation::matern52}) {
-            const CirculantGenerator generator(grid_of(cells), {Vec3(0.3, 0.2, 0.4), kind});
+            const CirculantGenerator generator(torus_grid(cells), {Vec3(0.3, 0.2, 0.4), kind});
             const Eigen::MatrixXd map = linear_map(generator);
             const Eigen::MatrixXd error =
                 map * map.transpose() - exact_covariance(generator.grid(), generator.correlation());
@@ -51,14 +51,14 @@ TEST(Circulant, PeriodsGrowUntilNoEigenvalueIsNegative) {
 
 TEST(Circulant, NegativeEigenvaluesAreRefusedWithTheirSize) {
     const std::string message = input_error([] {
-        CirculantGenerator(grid_of({8, 8, 1}), {Vec3(3e3, 3e3, 3e3), Correlation::gaussian});
+        CirculantGenerator(torus_grid({8, 8, 1}), {Vec3(3e3, 3e3, 3e3), Correlation::gaussian});
     });
     EXPECT_THAT(message, HasSubstr("field.method = \"circulant\""));
     EXPECT_THAT(message, HasSubstr("field.correlation_length = [3000, 3000, 3000]"));
     EXPECT_THAT(message, HasSubstr("the most negative one is -"));
     EXPECT_THAT(message, HasSubstr("gamma"));
     EXPECT_THAT(input_error([] {
-                    CirculantGenerator(grid_of({600, 600, 600}), {Vec3(1, 1, 1)});
+                    CirculantGenerator(torus_grid({600, 600, 600}), {Vec3(1, 1, 1)});
                 }),
                 HasSubstr("at most 2^25 = 33554432 are allowed; lower packing.blocks"));
 }
@@ -67,7 +67,8 @@ TEST(Circulant, NegativeEigenvaluesAreRefusedWithTheirSize) {
 TEST(Circulant, RefusalsNameCorrelationLengthsThatWouldDo) {
     const auto refusal = [](double theta) {
         return input_error([&] {
-            CirculantGenerator(grid_of({40, 40, 40}), CorrelationModel(Vec3(theta, theta, theta)));
+            CirculantGenerator(torus_grid({40, 40, 40}),
+                               CorrelationModel(Vec3(theta, theta, theta)));
         });
     };
     const std::string message = refusal(50.0);  // of cells of 0.25 m
@@ -80,7 +81,7 @@ TEST(Circulant, RefusalsNameCorrelationLengthsThatWouldDo) {
 
 // Expected equality of doubles: the same bits on any number of threads.
 TEST(Circulant, DoesNotDependOnThreads) {
-    const CirculantGenerator generator(grid_of({24, 24, 24}), paper_theta(0.1));
+    const CirculantGenerator generator(torus_grid({24, 24, 24}), paper_theta(0.1));
     std::vector<double> normals(generator.normals());
     core::RandomStream(1, core::Stream::field_friction).normals(0, 0, normals);
     std::vector<std::vector<double>> fields;
@@ -97,7 +98,7 @@ TEST(Circulant, DoesNotDependOnThreads) {
 
 TEST(Modes, DiagonalizeTheCovariance) {
     for (const double theta_y : {0.1, 1.0}) {
-        const GridSpec grid = grid_of({4, 6, 3});
+        const GridSpec grid = torus_grid({4, 6, 3});
         const KarhunenLoeveModes modes = karhunen_loeve_modes(grid, paper_theta(theta_y));
         const Eigen::MatrixXd c = exact_covariance(grid, paper_theta(theta_y));
         const Eigen::Index n = c.rows();
@@ -120,7 +121,7 @@ TEST(Modes, DiagonalizeTheCovariance) {
         EXPECT_GT(modes.shape.col(0).minCoeff(), 0.0);
     }
     EXPECT_THAT(input_error([] {
-                    karhunen_loeve_modes(grid_of({50, 50, 50}), Vec3(1, 1, 1));
+                    karhunen_loeve_modes(torus_grid({50, 50, 50}), Vec3(1, 1, 1));
                 }),
                 HasSubstr("at most 2048"));
 }

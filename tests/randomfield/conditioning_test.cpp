@@ -1,7 +1,7 @@
 // Conditioning on known values by exact algebra: it is affine in the fields and the errors, so the
 // mean and the covariance of what it makes follow without sampling.
 
-#include "randomfield/conditioning.hpp"
+#include "randomfield/conditioning/conditioning.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "randomfield/field_error.hpp"
+#include "randomfield/verification/field_error.hpp"
 #include "tests/randomfield/field_support.hpp"
 
 namespace grainfield::randomfield {
@@ -17,8 +17,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-constexpr auto friction = Property::friction_angle;
-constexpr auto stiffness = Property::normal_stiffness;
 
 struct Known {
     GridSpec grid{{3, 4, 2}, Vec3(0.25, 0.25, 0.25)};

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "randomfield/covariance.hpp"
+#include "randomfield/covariance/covariance.hpp"
 #include "tests/randomfield/field_support.hpp"
 
 namespace grainfield::randomfield {

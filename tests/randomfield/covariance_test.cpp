@@ -1,7 +1,7 @@
 // Exact covariances of local averages of the Markov field: the specification's table, the
 // one-dimensional factors, and the limits of very short and very long correlation lengths.
 
-#include "randomfield/covariance.hpp"
+#include "randomfield/covariance/covariance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "randomfield/covariance_factors.hpp"
+#include "randomfield/covariance/covariance_factors.hpp"
 #include "tests/randomfield/field_support.hpp"
 
 namespace grainfield::randomfield {

@@ -1,6 +1,6 @@
 // Measured values: the file, what is refused of it, and fields that honour it.
 
-#include "randomfield/field_data.hpp"
+#include "randomfield/conditioning/field_data.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/random.hpp"
+#include "core/base/random.hpp"
 #include "tests/larger.hpp"
 #include "tests/randomfield/field_support.hpp"
 
@@ -20,8 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::StartsWith;
-constexpr auto friction = Property::friction_angle;
-constexpr auto stiffness = Property::normal_stiffness;
 constexpr const char* full = "x,y,z,property,value,error\n";
 
 class FieldData : public testing::Test {

@@ -3,10 +3,13 @@
 
 #include <string>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "randomfield/block_field.hpp"
 
 namespace grainfield::randomfield {
+
+inline constexpr auto friction = Property::friction_angle;
+inline constexpr auto stiffness = Property::normal_stiffness;
 
 /// The paper's anisotropy: theta_x = theta_z = 10 theta_y.
 inline Vec3 paper_theta(double theta_y) {

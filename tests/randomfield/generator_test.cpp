@@ -5,11 +5,11 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "randomfield/cholesky_generator.hpp"
-#include "randomfield/covariance.hpp"
-#include "randomfield/field_error.hpp"
-#include "randomfield/las_classic_generator.hpp"
-#include "randomfield/las_generator.hpp"
+#include "randomfield/covariance/covariance.hpp"
+#include "randomfield/generators/cholesky_generator.hpp"
+#include "randomfield/generators/las_classic_generator.hpp"
+#include "randomfield/generators/las_generator.hpp"
+#include "randomfield/verification/field_error.hpp"
 #include "tests/randomfield/field_support.hpp"
 
 namespace grainfield::randomfield {

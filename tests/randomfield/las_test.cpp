@@ -7,17 +7,17 @@
 #include <cmath>
 #include <limits>
 
-#include "core/random.hpp"
-#include "randomfield/field_error.hpp"
-#include "randomfield/las_classic_generator.hpp"
-#include "randomfield/las_generator.hpp"
+#include "core/base/random.hpp"
+#include "randomfield/generators/las_classic_generator.hpp"
+#include "randomfield/generators/las_generator.hpp"
+#include "randomfield/verification/field_error.hpp"
 #include "tests/larger.hpp"
 #include "tests/randomfield/field_support.hpp"
 
 namespace grainfield::randomfield {
 namespace {
 
-GridSpec grid_of(const CellCount& cells, double edge = 0.25) {
+GridSpec las_grid(const CellCount& cells, double edge = 0.25) {
     return {cells, Vec3(edge, edge, edge)};
 }
 
@@ -30,7 +30,7 @@ std::vector<double> some_normals(std::size_t count) {
 // The mean of the children is the parent, in every stage, to the round-off of their sum.
 template <class Las>
 void expect_conservation(const CellCount& cells) {
-    const Las las(grid_of(cells), paper_theta(0.3), 5);
+    const Las las(las_grid(cells), paper_theta(0.3), 5);
     ASSERT_GE(las.subdivisions(), 2u);
     const auto fields = las.apply_stages(some_normals(las.normals()));
     ASSERT_EQ(fields.size(), las.subdivisions() + 1);
@@ -94,7 +94,7 @@ TEST(Las, CovarianceErrorsOfThePapersFieldsAreSmall) {
 // Many stages: errors of the published algorithm grow to 0.6, these stay below 0.047.
 TEST(Las, ErrorsStaySmallOverManyStages) {
     for (const double theta_y : {0.01, 0.1, 0.5, 1.0, 10.0}) {
-        const LasGenerator las(grid_of({8, 16, 8}), paper_theta(theta_y), 8);
+        const LasGenerator las(las_grid({8, 16, 8}), paper_theta(theta_y), 8);
         EXPECT_EQ(las.subdivisions(), 7u);
         const CovarianceError error = covariance_error(las);
         EXPECT_LT(error.covariance, 0.047) << theta_y;
@@ -135,7 +135,7 @@ TEST(Las, ErrorsOfEveryCorrelationModelAreThoseStated) {
         }
         EXPECT_LT(worst, row.from_54);
         EXPECT_GT(worst, 0.99 * row.from_54);
-        const LasGenerator las(grid_of(row.cells), {paper_theta(row.theta_y), row.kind},
+        const LasGenerator las(las_grid(row.cells), {paper_theta(row.theta_y), row.kind},
                                row.stage0);
         const double error = covariance_error(las).covariance;
         EXPECT_LT(error, las.stated_error());
@@ -151,7 +151,7 @@ TEST(Las, AnyGridAndAnyCorrelationLength) {
         for (const double theta_y : {2.5e-4, 0.1, 3e4}) {
             const Vec3 theta = paper_theta(theta_y);
             for (const std::int64_t stage0 : {1, 30}) {
-                const LasGenerator las(grid_of(cells), theta, stage0);
+                const LasGenerator las(las_grid(cells), theta, stage0);
                 const CellCount first = las.stage_cells(0);
                 EXPECT_LE(first[0] * first[1] * first[2], stage0);
                 EXPECT_EQ(las.stage_cells(las.subdivisions()), cells);
@@ -161,17 +161,17 @@ TEST(Las, AnyGridAndAnyCorrelationLength) {
                                             : theta_y > 1e3 ? 2.9e-6
                                                             : 0.047)
                     << theta_y << " stage 0 " << stage0;
-                const LasClassicGenerator classic(grid_of(cells), theta, stage0);
+                const LasClassicGenerator classic(las_grid(cells), theta, stage0);
                 EXPECT_LT(covariance_error(classic).covariance, theta_y < 1e-3  ? 3.4e-3
                                                                 : theta_y > 1e3 ? 2.3e-5
                                                                                 : 0.62);
             }
-            const LasGenerator exact(grid_of(cells), theta, 1000);
+            const LasGenerator exact(las_grid(cells), theta, 1000);
             EXPECT_TRUE(exact.exact());
             EXPECT_LT(covariance_error(exact).covariance, 1e-12);
         }
     }
-    const LasGenerator cell(grid_of({1, 1, 1}), paper_theta(1.0), 1);
+    const LasGenerator cell(las_grid({1, 1, 1}), paper_theta(1.0), 1);
     EXPECT_EQ(cell.subdivisions(), 0u);
     EXPECT_EQ(cell.normals(), 1u);
 }
@@ -179,7 +179,7 @@ TEST(Las, AnyGridAndAnyCorrelationLength) {
 // One axis only: of an exponential correlation in 1-D halving knows all that matters.
 TEST(Las, OneDimensionalMarkovFieldsAreNearlyExact) {
     for (const double theta : {0.1, 1.0, 10.0}) {
-        const LasGenerator las(grid_of({1, 64, 1}), {Vec3(1e3, theta, 1e3)}, 1);
+        const LasGenerator las(las_grid({1, 64, 1}), {Vec3(1e3, theta, 1e3)}, 1);
         EXPECT_EQ(las.subdivisions(), 6u);
         EXPECT_LT(covariance_error(las).covariance, 0.0225) << theta;
     }
@@ -187,11 +187,11 @@ TEST(Las, OneDimensionalMarkovFieldsAreNearlyExact) {
 
 // The default stage 0 is Fenton's: a fine grid starts from at most 512 cells. One normal a cell.
 TEST(Las, FineGridsStartFromAtMost512Cells) {
-    const LasGenerator las(grid_of({48, 96, 48}, 0.03125), paper_theta(1.0));
+    const LasGenerator las(las_grid({48, 96, 48}, 0.03125), paper_theta(1.0));
     EXPECT_EQ(las.stage_cells(0), (CellCount{3, 48, 3}));
     EXPECT_EQ(las.stage_cells(las.subdivisions()), (CellCount{48, 96, 48}));
     EXPECT_NE(input_error([&] { linear_map(las); }).find("8192"), std::string::npos);
-    const LasClassicGenerator classic(grid_of({48, 96, 48}, 0.03125), paper_theta(1.0));
+    const LasClassicGenerator classic(las_grid({48, 96, 48}, 0.03125), paper_theta(1.0));
     EXPECT_EQ(classic.subdivisions(), 3u);
     EXPECT_EQ(classic.stage_cells(0), (CellCount{6, 12, 6}));
     EXPECT_EQ(classic.normals(), 48u * 96u * 48u);
@@ -199,7 +199,7 @@ TEST(Las, FineGridsStartFromAtMost512Cells) {
 
 // EXPECT_EQ on doubles: the same bits on any number of threads, a large grid being shared by them.
 TEST(Las, DoesNotDependOnThreads) {
-    const LasGenerator las(grid_of({48, 48, 48}, 0.03125), paper_theta(0.1));
+    const LasGenerator las(las_grid({48, 48, 48}, 0.03125), paper_theta(0.1));
     const std::vector<double> normals = some_normals(las.normals());
     std::vector<std::vector<double>> fields;
     const int before = omp_get_max_threads();
@@ -221,7 +221,7 @@ TEST(Las, DrawsTheFieldOfTheStreamsNormals) {
     for (const CellCount& cells :
          {CellCount{48, 48, 48}, CellCount{100, 90, 10}, CellCount{9, 200, 30},
           CellCount{1, 1, 700}, CellCount{6, 12, 6}}) {
-        const LasGenerator las(grid_of(cells, 0.03125), paper_theta(0.1));
+        const LasGenerator las(las_grid(cells, 0.03125), paper_theta(0.1));
         std::vector<double> normals(las.normals()), applied(las.grid().size());
         random.normals(8, 0, normals);
         las.apply(normals, applied);
@@ -237,7 +237,7 @@ TEST(Las, DrawsTheFieldOfTheStreamsNormals) {
 
 // The same bits on every instruction set of this machine, normals and sums.
 TEST(Las, DoesNotDependOnTheInstructionSet) {
-    const LasGenerator las(grid_of({13, 24, 12}, 0.125), paper_theta(0.1), 54);
+    const LasGenerator las(las_grid({13, 24, 12}, 0.125), paper_theta(0.1), 54);
     std::vector<std::vector<double>> fields;
     const std::int64_t all = hwy::SupportedTargets();
     for (const std::int64_t target :
@@ -258,7 +258,7 @@ TEST(Las, DoesNotDependOnTheInstructionSet) {
 
 TEST(Las, RefusesWhatCannotBe) {
     const auto refused = [](const CellCount& cells, const Vec3& theta) {
-        return input_error([&] { LasGenerator(grid_of(cells), theta); });
+        return input_error([&] { LasGenerator(las_grid(cells), theta); });
     };
     EXPECT_NE(refused({0, 1, 1}, paper_theta(1.0)).find("[0, 1, 1]"), std::string::npos);
     EXPECT_NE(refused({2000, 2000, 2000}, paper_theta(1.0)).find("1e+09"), std::string::npos);

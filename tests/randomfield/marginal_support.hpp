@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "randomfield/marginal_options.hpp"
+#include "randomfield/marginals/marginal_options.hpp"
 
 namespace grainfield::randomfield {
 

@@ -1,7 +1,7 @@
 // Marginal distributions: quantile functions against Boost.Math's distributions, moments of cells
 // against closed forms, independent quadrature and sampling.
 
-#include "randomfield/marginals.hpp"
+#include "randomfield/marginals/marginals.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/random.hpp"
-#include "randomfield/covariance.hpp"
+#include "core/base/random.hpp"
+#include "randomfield/covariance/covariance.hpp"
 #include "tests/randomfield/field_support.hpp"
 #include "tests/randomfield/marginal_support.hpp"
 

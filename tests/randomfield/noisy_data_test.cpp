@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "randomfield/conditioning.hpp"
-#include "randomfield/noisy_value.hpp"
+#include "randomfield/conditioning/conditioning.hpp"
+#include "randomfield/conditioning/noisy_value.hpp"
 #include "tests/larger.hpp"
 #include "tests/randomfield/field_support.hpp"
 #include "tests/randomfield/marginal_support.hpp"
@@ -18,7 +18,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::StartsWith;
-constexpr auto friction = Property::friction_angle;
 
 /// Likelihood of a measurement, up to a factor.
 double log_likelihood(const NoisyValue& measured, double g) {

@@ -1,6 +1,6 @@
 // The verification finds what is wrong, and seldom what is not.
 
-#include "randomfield/verification.hpp"
+#include "randomfield/verification/verification.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>

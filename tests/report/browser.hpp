@@ -10,7 +10,7 @@
 
 #include "tests/report/run_fixture.hpp"
 
-namespace grainfield::triaxial::testing {
+namespace grainfield::triaxial::fixture {
 
 inline constexpr const char* chromium = "/usr/bin/chromium";
 
@@ -28,4 +28,4 @@ inline std::string browser(const std::filesystem::path& folder, const std::files
     return read_file(log);
 }
 
-}  // namespace grainfield::triaxial::testing
+}  // namespace grainfield::triaxial::fixture

@@ -11,12 +11,12 @@ namespace grainfield::triaxial {
 namespace {
 
 TEST(ReportInBrowser, Renders) {
-    if (!std::filesystem::exists(testing::chromium)) GTEST_SKIP() << "chromium is not installed";
-    const testing::TestFolder folder;
-    testing::write_run(folder.path(), {.field = testing::Field::stiffness});
+    if (!std::filesystem::exists(fixture::chromium)) GTEST_SKIP() << "chromium is not installed";
+    const fixture::TestFolder folder;
+    fixture::write_run(folder.path(), {.field = fixture::Field::stiffness});
     const auto page = write_report(folder.path());
     const auto picture = folder.path() / "page.png";
-    testing::browser(folder.path(), page, 4600, fmt::format("--screenshot='{}'", picture.string()));
+    fixture::browser(folder.path(), page, 4600, fmt::format("--screenshot='{}'", picture.string()));
     // A blank page of this size compresses to some 20 kB; text, figures and spheres do not.
     EXPECT_GT(std::filesystem::file_size(picture), 300'000U);
 }

@@ -8,8 +8,8 @@
 #include <regex>
 #include <set>
 
-#include "core/errors.hpp"
-#include "core/random.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/random.hpp"
 #include "tests/report/browser.hpp"
 #include "tests/report/run_fixture.hpp"
 #include "triaxial/campaign/campaign_folder.hpp"
@@ -19,9 +19,9 @@
 namespace grainfield::triaxial {
 namespace {
 
-using ::testing::HasSubstr;
-using testing::read_file;
-using testing::write_file;
+using fixture::read_file;
+using fixture::write_file;
+using testing::HasSubstr;
 
 constexpr const char* config = R"(
 field.variable = "stiffness"
@@ -31,7 +31,7 @@ realizations = 60
 "field.correlation_length" = [[1, 0.1, 1], [10, 1, 10], [100, 10, 100]]
 )";
 
-class CampaignReport : public ::testing::Test {
+class CampaignReport : public testing::Test {
   protected:
     /// A campaign whose first `rows` realizations of each case are done: E50 lognormal with a
     /// median of 30 MPa, peaks about 120 kPa; with no scatter all are the same.
@@ -59,28 +59,22 @@ class CampaignReport : public ::testing::Test {
         return dir;
     }
 
-    testing::TestFolder folder_;
+    fixture::TestFolder folder_;
 };
-
-std::size_t occurrences(const std::string& text, const std::string& what) {
-    std::size_t count = 0;
-    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++count;
-    return count;
-}
 
 TEST_F(CampaignReport, HasEveryFigureAndTable) {
     const std::string page = read_file(write_campaign_report(campaign(60)));
     // Trends over the correlation length, and of each case the convergence, histogram and P-P
     // plot: of two quantities each.
     constexpr std::size_t figures = 2 * (1 + 3 * 3);
-    EXPECT_EQ(occurrences(page, "<svg"), figures);
+    EXPECT_EQ(fixture::occurrences(page, "<svg"), figures);
     for (std::size_t k = 1; k <= figures; ++k)
         EXPECT_THAT(page, HasSubstr(fmt::format("<b>Figure {}.</b>", k)));
     std::set<std::string> ids;
     const std::regex id(" id=['\"]([^'\"]+)['\"]");
     for (std::sregex_iterator at(page.begin(), page.end(), id), end; at != end; ++at)
         EXPECT_TRUE(ids.insert((*at)[1]).second) << (*at)[1];
-    EXPECT_EQ(occurrences(page, "<table class=\"columns\">"), 4u);
+    EXPECT_EQ(fixture::occurrences(page, "<table class=\"columns\">"), 4u);
     EXPECT_THAT(page, HasSubstr("179 realizations over 3 cases are done, 1 failed"));
     EXPECT_THAT(page, HasSubstr("sphere 7 is &lt;lost&gt;"));
     EXPECT_THAT(page, HasSubstr("Correlation length"));
@@ -129,7 +123,10 @@ TEST_F(CampaignReport, OfACampaignThatHasJustBegunIsWhole) {
     for (const std::int64_t rows : {0, 1, 2, 5, 9}) {
         const std::string page = read_file(write_campaign_report(campaign(rows)));
         EXPECT_THAT(page, HasSubstr("Case correlation_length=10x1x10")) << rows;
-        EXPECT_EQ(occurrences(page, "<svg"), rows < 2 ? 0u : rows < 8 ? 2u + 6u : 2u + 18u) << rows;
+        EXPECT_EQ(fixture::occurrences(page, "<svg"), rows < 2   ? 0u
+                                                      : rows < 8 ? 2u + 6u
+                                                                 : 2u + 18u)
+            << rows;
     }
 }
 
@@ -140,14 +137,14 @@ TEST_F(CampaignReport, OfOneCaseWhoseRunsAreAllTheSame) {
     EXPECT_THAT(page, HasSubstr("Keys that vary: none."));
     EXPECT_THAT(page, HasSubstr("All runs gave the same modulus"));
     EXPECT_THAT(page, HasSubstr("All runs gave the same peak deviator stress"));
-    EXPECT_EQ(occurrences(page, "<svg"), 0u);
+    EXPECT_EQ(fixture::occurrences(page, "<svg"), 0u);
 }
 
 TEST_F(CampaignReport, TrendsGroupTheCasesThatAgreeInAllElse) {
     const auto dir = campaign(3, std::string(config) + "'field.stiffness.cov' = [0.4, 0.8]\n");
     const report::CampaignData data = report::read_campaign_data(dir);
     EXPECT_THAT(data.varying,
-                ::testing::ElementsAre("field.correlation_length", "field.stiffness.cov"));
+                testing::ElementsAre("field.correlation_length", "field.stiffness.cov"));
     const auto trends = report::trends_over(data, "field.correlation_length");
     ASSERT_EQ(trends.size(), 2u);
     EXPECT_EQ(trends[0].name, "cov = 0.4");
@@ -216,18 +213,18 @@ TEST_F(CampaignReport, DamagedTablesAreNamed) {
 }
 
 TEST_F(CampaignReport, RendersInABrowserWithoutErrors) {
-    if (!std::filesystem::exists(testing::chromium)) GTEST_SKIP() << "chromium is not installed";
+    if (!std::filesystem::exists(fixture::chromium)) GTEST_SKIP() << "chromium is not installed";
     const auto page = write_campaign_report(campaign(60));
     const auto picture = folder_.path() / "page.png";
-    const std::string log = testing::browser(folder_.path(), page, 7000,
+    const std::string log = fixture::browser(folder_.path(), page, 7000,
                                              fmt::format("--screenshot='{}'", picture.string()));
     EXPECT_EQ(log.find("CONSOLE"), std::string::npos) << log;
     // A blank page of this size compresses to some 30 kB.
     EXPECT_GT(std::filesystem::file_size(picture), 400'000U);
     // Every figure is in the browser's own tree, too.
-    const std::string tree = testing::browser(folder_.path(), page, 7000, "--dump-dom");
-    EXPECT_EQ(occurrences(tree, "<svg"), 20u);
-    EXPECT_EQ(occurrences(tree, "<figcaption>"), 20u);
+    const std::string tree = fixture::browser(folder_.path(), page, 7000, "--dump-dom");
+    EXPECT_EQ(fixture::occurrences(tree, "<svg"), 20u);
+    EXPECT_EQ(fixture::occurrences(tree, "<figcaption>"), 20u);
 }
 
 }  // namespace

@@ -3,14 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "tests/report/run_fixture.hpp"
 #include "triaxial/report/curve_file.hpp"
 
 namespace grainfield::triaxial::report {
 namespace {
 
-using ::testing::HasSubstr;
+using testing::HasSubstr;
 
 const std::string header =
     "axial_strain,deviator_stress_Pa,axial_stress_Pa,lateral_stress_x_Pa,lateral_stress_z_Pa,"
@@ -18,8 +18,8 @@ const std::string header =
 const std::string row = "0.001,5e4,150e3,101e3,99e3,0.0001,0.01,0.01,1000\n";
 
 std::string refusal(const std::string& text) {
-    const testing::TestFolder folder;
-    testing::write_file(folder.path() / "curve.csv", text);
+    const fixture::TestFolder folder;
+    fixture::write_file(folder.path() / "curve.csv", text);
     try {
         read_curve(folder.path() / "curve.csv");
     } catch (const FileError& e) {
@@ -29,8 +29,8 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(CurveFile, ReadsEveryColumn) {
-    const testing::TestFolder folder;
-    testing::write_file(folder.path() / "curve.csv", header + row + row);
+    const fixture::TestFolder folder;
+    fixture::write_file(folder.path() / "curve.csv", header + row + row);
     const Curve curve = read_curve(folder.path() / "curve.csv");
     ASSERT_EQ(curve.size(), 2U);
     EXPECT_EQ(curve.axial_strain[1], 0.001);

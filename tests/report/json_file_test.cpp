@@ -5,29 +5,29 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "tests/message_of.hpp"
 #include "tests/report/run_fixture.hpp"
 
 namespace grainfield::triaxial::report {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::EndsWith;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Pair;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Pair;
 
-class JsonFileTest : public ::testing::Test {
+class JsonFileTest : public testing::Test {
   protected:
     JsonFile file(const std::string& text) const {
         const auto path = folder_.path() / "summary.json";
-        triaxial::testing::write_file(path, text);
+        triaxial::fixture::write_file(path, text);
         return JsonFile(path);
     }
 
   private:
-    triaxial::testing::TestFolder folder_;
+    triaxial::fixture::TestFolder folder_;
 };
 
 TEST_F(JsonFileTest, FindsKeysInTables) {

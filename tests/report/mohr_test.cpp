@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "triaxial/report/mohr.hpp"
 
 namespace grainfield::triaxial::report {

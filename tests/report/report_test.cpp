@@ -11,23 +11,17 @@
 #include <regex>
 #include <set>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "tests/report/run_fixture.hpp"
 
 namespace grainfield::triaxial {
 namespace {
 
-using ::testing::AllOf;
-using testing::Field;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using testing::TestFolder;
-
-std::size_t occurrences(const std::string& text, std::string_view what) {
-    std::size_t n = 0;
-    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++n;
-    return n;
-}
+using fixture::Field;
+using fixture::TestFolder;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
 
 /// The page without its pictures' bytes, which could hold any text.
 std::string without_pictures(const std::string& page) {
@@ -53,13 +47,13 @@ std::string message_of(const std::filesystem::path& dir) {
 
 TEST(Report, HoldsEveryFigure) {
     const TestFolder folder;
-    testing::write_run(folder.path(), {.field = Field::stiffness});
+    fixture::write_run(folder.path(), {.field = Field::stiffness});
     const auto path = write_report(folder.path());
     EXPECT_EQ(path, folder.path() / "report.html");
-    const std::string page = testing::read_file(path);
-    EXPECT_EQ(occurrences(page, "<svg"), 6U);
-    EXPECT_EQ(occurrences(page, "src=\"data:image/png;base64,iVBORw0KGgo"), 1U);
-    EXPECT_EQ(occurrences(page, "<figcaption>"), 7U);
+    const std::string page = fixture::read_file(path);
+    EXPECT_EQ(fixture::occurrences(page, "<svg"), 6U);
+    EXPECT_EQ(fixture::occurrences(page, "src=\"data:image/png;base64,iVBORw0KGgo"), 1U);
+    EXPECT_EQ(fixture::occurrences(page, "<figcaption>"), 7U);
     for (const char* caption :
          {"secant to half the peak", "Mohr circle at peak", "Lateral stresses",
           "The sum closes to 0.087 % of the work put in", "coloured by normal stiffness",
@@ -69,28 +63,29 @@ TEST(Report, HoldsEveryFigure) {
 
 TEST(Report, OfARunWithoutALedgerLeavesItsFigureOut) {
     const TestFolder folder;
-    testing::write_run(folder.path(), {});
+    fixture::write_run(folder.path(), {});
     std::filesystem::remove(folder.path() / "energy.csv");
-    const std::string page = testing::read_file(write_report(folder.path()));
-    EXPECT_EQ(occurrences(page, "<svg"), 5U);
+    const std::string page = fixture::read_file(write_report(folder.path()));
+    EXPECT_EQ(fixture::occurrences(page, "<svg"), 5U);
     EXPECT_THAT(page, Not(HasSubstr("energy ledger from the start")));
 }
 
 TEST(Report, NamesTheLineOfABrokenLedger) {
     const TestFolder folder;
-    testing::write_run(folder.path(), {});
+    fixture::write_run(folder.path(), {});
     const auto path = folder.path() / "energy.csv";
-    const std::string text = testing::read_file(path);
-    testing::write_file(path, text.substr(0, text.find('\n') + 1) + "0,1,2,x,4,5,6,7,8\n");
+    const std::string text = fixture::read_file(path);
+    fixture::write_file(path, text.substr(0, text.find('\n') + 1) + "0,1,2,x,4,5,6,7,8\n");
     EXPECT_EQ(message_of<FileError>(folder.path()),
               path.string() + ":2: 'x' is not a finite number");
 }
 
 TEST(Report, NeedsNothingFromOutside) {
     const TestFolder folder;
-    testing::write_run(folder.path(), {});
-    std::string page = without_pictures(testing::read_file(write_report(folder.path())));
-    EXPECT_EQ(occurrences(page, "src="), occurrences(page, "src=\"data:image/png;"));
+    fixture::write_run(folder.path(), {});
+    std::string page = without_pictures(fixture::read_file(write_report(folder.path())));
+    EXPECT_EQ(fixture::occurrences(page, "src="),
+              fixture::occurrences(page, "src=\"data:image/png;"));
     for (const char* name_space : {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"})
         page = std::regex_replace(page, std::regex(name_space), "");
     for (const char* outside : {"http:", "https:", "file:", "@import", "<link", "<script"})
@@ -103,8 +98,8 @@ TEST(Report, NeedsNothingFromOutside) {
 
 TEST(Report, IdsAreUnique) {
     const TestFolder folder;
-    testing::write_run(folder.path(), {});
-    const std::string page = without_pictures(testing::read_file(write_report(folder.path())));
+    fixture::write_run(folder.path(), {});
+    const std::string page = without_pictures(fixture::read_file(write_report(folder.path())));
     const std::regex id(R"(\sid=['"]([^'"]+)['"])");
     std::set<std::string> ids;
     for (std::sregex_iterator it(page.begin(), page.end(), id), end; it != end; ++it)
@@ -114,8 +109,8 @@ TEST(Report, IdsAreUnique) {
 
 TEST(Report, ShowsTheNumbersOfTheSummary) {
     const TestFolder folder;
-    const auto summary = testing::write_run(folder.path(), {.field = Field::stiffness});
-    const std::string page = testing::read_file(write_report(folder.path()));
+    const auto summary = fixture::write_run(folder.path(), {.field = Field::stiffness});
+    const std::string page = fixture::read_file(write_report(folder.path()));
     const auto cell = [](const std::string& value) { return "<td>" + value + "</td>"; };
     const double q = summary["peak_deviator_stress_Pa"], modulus = summary["E50_Pa"];
     const double phi = summary["friction_angle_rad"];
@@ -137,50 +132,50 @@ TEST(Report, ShowsTheNumbersOfTheSummary) {
 TEST(Report, FitsTheEnvelopeThroughCompanions) {
     const TestFolder folder;
     const std::array companions{folder.path() / "at-200", folder.path() / "at-400"};
-    testing::write_run(folder.path() / "at-100", {});
-    testing::write_run(companions[0], {.confining_stress = 200e3});
-    testing::write_run(companions[1], {.confining_stress = 400e3});
-    const std::string page = testing::read_file(write_report(folder.path() / "at-100", companions));
+    fixture::write_run(folder.path() / "at-100", {});
+    fixture::write_run(companions[0], {.confining_stress = 200e3});
+    fixture::write_run(companions[1], {.confining_stress = 400e3});
+    const std::string page = fixture::read_file(write_report(folder.path() / "at-100", companions));
     EXPECT_THAT(page, HasSubstr("Mohr circles at peak strength of 3 runs"));
     EXPECT_THAT(page, HasSubstr("φ = 28.6° (0.5000 rad)"));
 }
 
 TEST(Report, RefusesCompanionsAtTheSameConfiningStress) {
     const TestFolder folder;
-    testing::write_run(folder.path(), {});
+    fixture::write_run(folder.path(), {});
     const std::array companions{folder.path()};
     EXPECT_THROW(write_report(folder.path(), companions), InputError);
 }
 
 TEST(Report, DoesWithoutAPacking) {
     const TestFolder folder;
-    testing::write_run(folder.path(), {.field = Field::friction, .packing = false});
-    const std::string page = testing::read_file(write_report(folder.path()));
-    EXPECT_EQ(occurrences(page, "<svg"), 4U);
+    fixture::write_run(folder.path(), {.field = Field::friction, .packing = false});
+    const std::string page = fixture::read_file(write_report(folder.path()));
+    EXPECT_EQ(fixture::occurrences(page, "<svg"), 4U);
     EXPECT_THAT(page, HasSubstr("holds no <code>packing.json</code>"));
 }
 
 TEST(Report, SaysWhenNoPeakWasFound) {
     const TestFolder folder;
-    auto summary = testing::write_run(folder.path(), {});
+    auto summary = fixture::write_run(folder.path(), {});
     summary["peak_found"] = false;
-    testing::write_file(folder.path() / "summary.json", summary.dump());
-    const std::string page = testing::read_file(write_report(folder.path()));
+    fixture::write_file(folder.path() / "summary.json", summary.dump());
+    const std::string page = fixture::read_file(write_report(folder.path()));
     EXPECT_THAT(page, AllOf(HasSubstr("No peak was found"), HasSubstr("still hardens"),
                             Not(HasSubstr(">Peak deviator stress"))));
 }
 
 TEST(Report, SaysInWordsWhatTheCaseIsAndHowQuasiStatic) {
     const TestFolder folder;
-    auto summary = testing::write_run(folder.path(), {});
+    auto summary = fixture::write_run(folder.path(), {});
     summary.erase("state_hash");
     summary.erase("lateral_stress_rms_error");
     summary.erase("lateral_stress_max_error");
     const auto page_of = [&](const std::string& name, double inertial_number) {
         summary["case"] = name;
         summary["inertial_number"] = inertial_number;
-        testing::write_file(folder.path() / "summary.json", summary.dump());
-        return testing::read_file(write_report(folder.path()));
+        fixture::write_file(folder.path() / "summary.json", summary.dump());
+        return fixture::read_file(write_report(folder.path()));
     };
     EXPECT_THAT(page_of("none", 5e-5),
                 AllOf(HasSubstr("uniform properties"), HasSubstr(">quasi-static<"),
@@ -195,7 +190,7 @@ TEST(Report, SaysInWordsWhatTheCaseIsAndHowQuasiStatic) {
 TEST(Report, NamesAMissingFile) {
     for (const char* name : {"summary.json", "curve.csv", "config.toml", "state.h5"}) {
         const TestFolder folder;
-        testing::write_run(folder.path(), {});
+        fixture::write_run(folder.path(), {});
         std::filesystem::remove(folder.path() / name);
         EXPECT_THAT(message_of<FileError>(folder.path()), HasSubstr(name));
         EXPECT_FALSE(std::filesystem::exists(folder.path() / "report.html"));
@@ -204,10 +199,10 @@ TEST(Report, NamesAMissingFile) {
 
 TEST(Report, NamesACorruptFile) {
     const TestFolder folder;
-    const auto summary = testing::write_run(folder.path(), {});
+    const auto summary = fixture::write_run(folder.path(), {});
     const auto replaced = [&](const char* name, const std::string& text) {
-        testing::write_run(folder.path(), {});
-        testing::write_file(folder.path() / name, text);
+        fixture::write_run(folder.path(), {});
+        fixture::write_file(folder.path() / name, text);
         return message_of<FileError>(folder.path());
     };
     EXPECT_THAT(replaced("summary.json", "{\"particles\": 12,"),
@@ -232,7 +227,7 @@ TEST(Report, NamesACorruptFile) {
 
 TEST(Report, SaysThatGnuplotIsMissing) {
     const TestFolder folder;
-    testing::write_run(folder.path(), {});
+    fixture::write_run(folder.path(), {});
     const std::string path = getenv("PATH");
     setenv("PATH", folder.path().c_str(), 1);
     const std::string message = message_of<FileError>(folder.path());
@@ -242,11 +237,11 @@ TEST(Report, SaysThatGnuplotIsMissing) {
 
 TEST(Report, KeepsTheOldPageOnFailure) {
     const TestFolder folder;
-    testing::write_run(folder.path(), {});
-    testing::write_file(folder.path() / "report.html", "old");
-    testing::write_file(folder.path() / "curve.csv", "");
+    fixture::write_run(folder.path(), {});
+    fixture::write_file(folder.path() / "report.html", "old");
+    fixture::write_file(folder.path() / "curve.csv", "");
     EXPECT_THROW(write_report(folder.path()), FileError);
-    EXPECT_EQ(testing::read_file(folder.path() / "report.html"), "old");
+    EXPECT_EQ(fixture::read_file(folder.path() / "report.html"), "old");
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 
 #include "core/files/sphere_file.hpp"
 
-namespace grainfield::triaxial::testing {
+namespace grainfield::triaxial::fixture {
 namespace {
 
 using nlohmann::ordered_json;
@@ -252,4 +252,10 @@ std::string read_file(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-}  // namespace grainfield::triaxial::testing
+std::size_t occurrences(const std::string& text, std::string_view what) {
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++count;
+    return count;
+}
+
+}  // namespace grainfield::triaxial::fixture

@@ -6,8 +6,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
-namespace grainfield::triaxial::testing {
+namespace grainfield::triaxial::fixture {
 
 enum class Field { none, stiffness, friction };
 
@@ -40,4 +41,7 @@ class TestFolder {
 void write_file(const std::filesystem::path& path, const std::string& text);
 std::string read_file(const std::filesystem::path& path);
 
-}  // namespace grainfield::triaxial::testing
+/// How often `what` stands in `text` [-].
+std::size_t occurrences(const std::string& text, std::string_view what);
+
+}  // namespace grainfield::triaxial::fixture

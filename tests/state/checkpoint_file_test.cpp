@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/file_info.hpp"
 #include "core/files/text_file.hpp"
 #include "core/state/part_of.hpp"

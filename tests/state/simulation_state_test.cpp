@@ -7,9 +7,9 @@
 #include <random>
 #include <sstream>
 
-#include "core/driver.hpp"
-#include "core/errors.hpp"
-#include "core/servo.hpp"
+#include "core/base/errors.hpp"
+#include "core/drive/driver.hpp"
+#include "core/drive/servo.hpp"
 #include "tests/core/test_scenes.hpp"
 #include "tests/reliability/record.hpp"
 

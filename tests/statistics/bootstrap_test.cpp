@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "tests/statistics/reference_values.hpp"
 #include "tests/statistics/samples.hpp"
 #include "triaxial/statistics/moments.hpp"

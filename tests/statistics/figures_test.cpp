@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "tests/statistics/reference_values.hpp"
 #include "tests/statistics/samples.hpp"
 #include "triaxial/statistics/goodness_of_fit.hpp"

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "tests/statistics/reference_values.hpp"
 #include "tests/statistics/samples.hpp"
 #include "triaxial/statistics/distributions.hpp"

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/random.hpp"
+#include "core/base/random.hpp"
 #include "triaxial/statistics/sample.hpp"
 
 namespace grainfield::triaxial::statistics {

@@ -1,5 +1,5 @@
 // What is read off a stress-strain curve, and when a test may end.
-#include "triaxial/test/curve.hpp"
+#include "triaxial/realization/curve.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/errors.hpp"
-#include "core/random.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/random.hpp"
 
 namespace grainfield::triaxial {
 namespace {

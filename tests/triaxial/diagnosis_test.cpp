@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <functional>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/kernel_choice.hpp"
 #include "packing/isotropic.hpp"
 #include "tests/kernels/kernel_tables.hpp"
 #include "tests/reliability/record.hpp"
 #include "tests/triaxial/small_test.hpp"
-#include "triaxial/test/shear.hpp"
+#include "triaxial/realization/shear.hpp"
 
 namespace grainfield::triaxial {
 namespace {

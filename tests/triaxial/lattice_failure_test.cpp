@@ -53,7 +53,7 @@ double rhombic_block(double f, int n, int rows) {
     return rhombic_lattice(f) * (n - 1) / n * (1 + 2 / (std::sqrt(3.0) * (rows - 1)));
 }
 
-const std::string page = "Lattices at failure (triaxial test)";
+const std::string failure_page = "Lattices at failure (triaxial test)";
 
 using LatticeFailure = KernelTest;
 class FccCube : public KernelTest {};
@@ -67,7 +67,7 @@ const std::string uniform_why = "elastic strain up to the peak (5e-4) turns the 
 TEST_P(LatticeFailure, SmallFccBlockMeetsRoweAndThornton) {
     for (double f : {0.1, 0.2, 0.3, 0.4, 0.5}) {
         const double expected = fcc_block(f, 3, 5);
-        verify::record({.scene = page,
+        verify::record({.scene = failure_page,
                         .quantity = fmt::format("FCC, f = {}: s1/s3", f),
                         .closed_form = "2 (1 + f)/(1 - f), times (2/3)(1 + sqrt(2)/4): the walls",
                         .source = "Rowe 1962, Thornton 1979",
@@ -81,7 +81,7 @@ TEST_P(LatticeFailure, SmallFccBlockMeetsRoweAndThornton) {
 TEST_P(LatticeFailure, SmallRhombicBlockMeetsRowe) {
     for (double f : {0.1, 0.2, 0.3, 0.4}) {
         const double expected = rhombic_block(f, 3, 5);
-        verify::record({.scene = page,
+        verify::record({.scene = failure_page,
                         .quantity = fmt::format("rhombic, f = {}: s1/s3", f),
                         .closed_form = "tan(60 deg) tan(60 deg + phi), times (2/3)(1 + 1/(2 "
                                        "sqrt(3))): the walls",
@@ -99,7 +99,7 @@ TEST_P(LatticeFailure, SmallRhombicBlockMeetsRowe) {
 TEST_P(LatticeFailure, LargerBlocksRollBeforeTheLastBondsSlide) {
     for (double f : {0.2, 0.3}) {
         const double expected = fcc_block(f, 5, 7);
-        verify::record({.scene = page,
+        verify::record({.scene = failure_page,
                         .quantity = fmt::format("FCC 5 x 7 x 5, f = {}: s1/s3", f),
                         .closed_form = "2 (1 + f)/(1 - f), times (4/5)(1 + sqrt(2)/6): the walls",
                         .source = "Rowe 1962, Thornton 1979",
@@ -119,7 +119,7 @@ TEST_P(FccCube, NearsRoweAndThorntonAsOneOverItsSize) {
         double last = 0, product[2] = {};
         for (int n : {7, 15}) {
             const double ratio = stress_ratio_at_failure(fcc_cube(n), failing(f), table());
-            verify::record({.scene = page,
+            verify::record({.scene = failure_page,
                             .quantity = fmt::format("FCC cube of {} layers, f = {}: s1/s3", n, f),
                             .closed_form = "2 (1 + f)/(1 - f)",
                             .source = "Rowe 1962, Thornton 1979",
@@ -130,7 +130,7 @@ TEST_P(FccCube, NearsRoweAndThorntonAsOneOverItsSize) {
             product[n == 15] = n * ratio;
         }
         verify::record(
-            {.scene = page,
+            {.scene = failure_page,
              .quantity = fmt::format("FCC cube, 7 and 15 layers extrapolated, f = {}: s1/s3", f),
              .closed_form = "2 (1 + f)/(1 - f)",
              .source = "Rowe 1962, Thornton 1979",

@@ -22,7 +22,7 @@ using namespace testing;  // lattices
 
 class LatticeModuli : public kernels::KernelTest {};
 
-const std::string page = "Lattice moduli (triaxial test)";
+const std::string moduli_page = "Lattice moduli (triaxial test)";
 constexpr double stress = 2e5;  // compresses by 1e-3 [Pa]
 
 /// Friction that never slips, an axial strain of less than half the compression's.
@@ -57,14 +57,14 @@ TEST_P(LatticeModuli, SimpleCubic) {
         const SmallStrain s = small_strain(simple_cubic(n), elastic(), table());
         // Chains of n spheres with n + 1 contacts, walls as stiff as spheres.
         const double modulus = normal_stiffness() / (2 * lattice_radius) * n / (n + 1);
-        verify::record({.scene = page,
+        verify::record({.scene = moduli_page,
                         .quantity = fmt::format("simple cubic, n = {}: E", n),
                         .closed_form = "K_n/(2 R) n/(n + 1)",
                         .source = "springs in series",
                         .unit = "Pa",
                         .tolerance = squeezed_why},
                        GetParam().name, modulus, s.modulus, squeezed * modulus);
-        verify::record({.scene = page,
+        verify::record({.scene = moduli_page,
                         .quantity = fmt::format("simple cubic, n = {}: nu", n),
                         .closed_form = "sigma_3/E",
                         .source = "no bond couples the axes; side walls get less area to press on",
@@ -84,14 +84,14 @@ void check_extrapolated(const std::string& name, const std::string& kernel, cons
     }
     const double modulus = 1 / extrapolated(n, compliance);
     const std::string why = "next order of 1/n; compression before, 1e-3";
-    verify::record({.scene = page,
+    verify::record({.scene = moduli_page,
                     .quantity = name + ": E",
                     .closed_form = modulus_form,
                     .source = "affine lattice sum",
                     .unit = "Pa",
                     .tolerance = why},
                    kernel, expected.modulus, modulus, 0.02 * expected.modulus);
-    verify::record({.scene = page,
+    verify::record({.scene = moduli_page,
                     .quantity = name + ": nu_x + nu_z",
                     .closed_form = lateral_form,
                     .source = "affine lattice sum",

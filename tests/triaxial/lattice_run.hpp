@@ -8,7 +8,7 @@
 #include "packing/isotropic.hpp"
 #include "tests/kernels/kernel_tables.hpp"
 #include "tests/triaxial/lattice_samples.hpp"
-#include "triaxial/test/shear.hpp"
+#include "triaxial/realization/shear.hpp"
 
 namespace grainfield::triaxial::testing {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tests/packing/small_samples.hpp"
-#include "triaxial/test/triaxial_test.hpp"
+#include "triaxial/realization/triaxial_test.hpp"
 
 namespace grainfield::triaxial::testing {
 

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <random>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/kernel_choice.hpp"
 #include "tests/kernels/kernel_tables.hpp"
 #include "tests/reliability/record.hpp"

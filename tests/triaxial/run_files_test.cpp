@@ -1,5 +1,5 @@
 // Results as files: the contract's keys and columns.
-#include "triaxial/test/run_files.hpp"
+#include "triaxial/realization/run_files.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // From files and random fields to the sample of a test.
-#include "triaxial/test/sample.hpp"
+#include "triaxial/realization/sample.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <string>
 
 #include "tests/triaxial/small_test.hpp"
-#include "triaxial/test/packing_files.hpp"
+#include "triaxial/realization/packing_files.hpp"
 
 namespace grainfield::triaxial {
 namespace {

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "core/random.hpp"
+#include "core/base/random.hpp"
+#include "core/drive/box.hpp"
 #include "packing/isotropic.hpp"
 #include "tests/triaxial/small_test.hpp"
 
@@ -69,7 +70,7 @@ TEST(Shear, HoldsTheConfiningStressAndStiffensWithIt) {
         EXPECT_EQ(run.result.inertia_ratio, 1);
         // Only the walls' box is known at the end: the last point is at most one step older.
         const double shrunk = 1 - run.simulation.spheres().solid_volume() /
-                                      packing::box_dimensions(run.simulation).prod();
+                                      core::box_dimensions(run.simulation).prod();
         const double at_point =
             1 - (1 - run.result.sheared_porosity) / (1 - run.result.curve.back().volumetric_strain);
         EXPECT_NEAR(shrunk, at_point, 1e-5);

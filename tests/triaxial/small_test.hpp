@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "tests/packing/small_samples.hpp"
-#include "triaxial/test/sample.hpp"
-#include "triaxial/test/triaxial_test.hpp"
+#include "triaxial/realization/sample.hpp"
+#include "triaxial/realization/triaxial_test.hpp"
 
 namespace grainfield::triaxial::testing {
 

@@ -14,7 +14,7 @@ namespace {
 
 using ObliqueScene = SceneTest;
 
-const std::string source = "Di Maio & Di Renzo 2004";
+const std::string oblique_source = "Di Maio & Di Renzo 2004";
 
 /// Friction of sphere on wall or of two spheres [-].
 double friction(const SceneResult& r, std::size_t i, double other_angle) {
@@ -68,7 +68,7 @@ TEST_P(ObliqueScene, OnPlane) {
         record({.scene = "oblique-plane",
                 .quantity = "v_x after, " + name,
                 .closed_form = "v_x + (s' - s)/3.5, s' = " + e.closed_form,
-                .source = source,
+                .source = oblique_source,
                 .unit = "m/s",
                 .tolerance = why,
                 .scale = before.v.norm()},
@@ -76,7 +76,7 @@ TEST_P(ObliqueScene, OnPlane) {
         record({.scene = "oblique-plane",
                 .quantity = "R w after, " + name,
                 .closed_form = "R w + (s' - s)/1.4",
-                .source = source,
+                .source = oblique_source,
                 .unit = "m/s",
                 .tolerance = why,
                 .scale = before.v.norm()},
@@ -112,7 +112,7 @@ TEST_P(ObliqueScene, OfSpheres) {
         record({.scene = "oblique-spheres",
                 .quantity = "relative v_y after, " + name,
                 .closed_form = "v_y + (s' - s)/3.5, s' = " + e.closed_form,
-                .source = source,
+                .source = oblique_source,
                 .unit = "m/s",
                 .tolerance = why,
                 .scale = speed},
@@ -120,7 +120,7 @@ TEST_P(ObliqueScene, OfSpheres) {
         record({.scene = "oblique-spheres",
                 .quantity = "r_a w_a + r_b w_b after, " + name,
                 .closed_form = "-(s' - s)/1.4",
-                .source = source,
+                .source = oblique_source,
                 .unit = "m/s",
                 .tolerance = why,
                 .scale = speed},

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-const fs::path scenes = GRAINFIELD_SOURCE_DIR "/tests/verification/scenes";
+const fs::path scene_folder = GRAINFIELD_SOURCE_DIR "/tests/verification/scenes";
 
 std::string committed_page() {
     std::ifstream stream(GRAINFIELD_SOURCE_DIR "/tests/VERIFICATION.md");
@@ -34,7 +34,7 @@ TEST(VerificationPage, HasEverySceneWithItsCommand) {
         GTEST_SKIP() << "the page is being written anew";
     const std::string page = committed_page();
     int count = 0;
-    for (const auto& entry : fs::directory_iterator(scenes)) {
+    for (const auto& entry : fs::directory_iterator(scene_folder)) {
         const std::string name = entry.path().filename().string();
         EXPECT_TRUE(fs::exists(entry.path() / "scene.toml")) << name;
         // The plain scene that others are compared with has no row of its own.
@@ -70,7 +70,7 @@ TEST_F(PageOfRecords, KeepsTheWorstOfEachPrecision) {
     write("one.json",
           {record_of("x | y", "reference", 1.125), record_of("x | y", "a_mixed", 0.75)});
     write("two.json", {record_of("x | y", "avx2_double", 1.0), record_of("x | y", "b_mixed", 1.0)});
-    const std::string page = page_of(folder, scenes);
+    const std::string page = page_of(folder, scene_folder);
     EXPECT_THAT(page, HasSubstr("| 1.125 m | 1.2e-01 | 5.0e-01 | 0.75 m | 2.5e-01 | 5.0e-01 |"));
     EXPECT_THAT(page, HasSubstr("1 rows, 4 checks"));
     EXPECT_THAT(page, HasSubstr("reference"));
@@ -80,8 +80,8 @@ TEST_F(PageOfRecords, KeepsTheWorstOfEachPrecision) {
 }
 
 TEST_F(PageOfRecords, RefusesAnEmptyFolder) {
-    EXPECT_THROW(page_of(folder, scenes), std::runtime_error);
-    EXPECT_THROW(page_of(folder / "none", scenes), std::runtime_error);
+    EXPECT_THROW(page_of(folder, scene_folder), std::runtime_error);
+    EXPECT_THROW(page_of(folder / "none", scene_folder), std::runtime_error);
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ Vec3 velocity_at(const SceneResult& r, std::size_t i, double time) {
     return (1 - share) * r.states[k][i].v + share * r.states[k + 1][i].v;
 }
 
-const std::string source = "rigid body, shear spring in series";
+const std::string rolling_source = "rigid body, shear spring in series";
 
 TEST_P(RollingScene, SlidingToRolling) {
     const SceneResult r = run("sliding-to-rolling");
@@ -73,7 +73,7 @@ TEST_P(RollingScene, SlidingToRolling) {
     Case row{.scene = "sliding-to-rolling",
              .quantity = "v (largest error at any time)",
              .closed_form = "5/7 v_0 + 2/7 s(t)",
-             .source = source,
+             .source = rolling_source,
              .unit = "m/s",
              .tolerance = "omega_s h mu g h, (omega_s h)^2 of the swing",
              .scale = v0};
@@ -150,7 +150,7 @@ TEST_P(RollingScene, Incline) {
         Case row{.scene = "incline",
                  .quantity = "v at any time, largest error, " + name,
                  .closed_form = "5/7 g sin(theta) t + 2/7 s(t)",
-                 .source = source,
+                 .source = rolling_source,
                  .unit = "m/s",
                  .tolerance = "omega_s h g sin(theta) h, (omega_s h)^2 of the swing",
                  .scale = g * r.file.end};

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene.hpp"
+#include "core/scene/scene.hpp"
 #include "tests/verification/record.hpp"
 #include "triaxial/config/scene_file.hpp"
 

@@ -13,7 +13,7 @@
 #include <mutex>
 #include <thread>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "triaxial/campaign/progress.hpp"
 #include "triaxial/campaign/run_work.hpp"
 #include "triaxial/campaign/starts.hpp"

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/monitor.hpp"
+#include "core/base/monitor.hpp"
 #include "triaxial/campaign/campaign_folder.hpp"
 
 namespace grainfield::triaxial {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/folder.hpp"
 #include "core/files/text_file.hpp"

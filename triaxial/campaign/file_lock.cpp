@@ -11,7 +11,7 @@
 #include <thread>
 #include <tuple>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/text_file.hpp"
 
 namespace grainfield::triaxial {

@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <string>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/text_file.hpp"
 
 namespace grainfield::triaxial {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/monitor.hpp"
+#include "core/base/monitor.hpp"
 #include "triaxial/campaign/plan.hpp"
 #include "triaxial/campaign/row.hpp"
 

@@ -3,11 +3,11 @@
 #include <chrono>
 #include <mutex>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/folder.hpp"
 #include "core/kernel_choice.hpp"
-#include "triaxial/test/run_files.hpp"
-#include "triaxial/test/sample.hpp"
+#include "triaxial/realization/run_files.hpp"
+#include "triaxial/realization/sample.hpp"
 
 namespace grainfield::triaxial {
 namespace {

@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/folder.hpp"
 #include "core/kernel_choice.hpp"
 #include "packing/isotropic.hpp"
 #include "triaxial/campaign/file_lock.hpp"
 #include "triaxial/campaign/plan.hpp"
-#include "triaxial/test/packing_files.hpp"
-#include "triaxial/test/run_files.hpp"
-#include "triaxial/test/sample.hpp"
+#include "triaxial/realization/packing_files.hpp"
+#include "triaxial/realization/run_files.hpp"
+#include "triaxial/realization/sample.hpp"
 
 namespace grainfield::triaxial {
 namespace {

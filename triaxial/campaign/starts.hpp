@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "core/monitor.hpp"
-#include "triaxial/test/triaxial_test.hpp"
+#include "core/base/monitor.hpp"
+#include "triaxial/realization/triaxial_test.hpp"
 
 namespace grainfield::triaxial {
 

@@ -8,7 +8,7 @@
 #include <iostream>
 #include <new>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "randomfield/memory_limit.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/terminal_monitor.hpp"

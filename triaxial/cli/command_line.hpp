@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/monitor.hpp"
+#include "core/base/monitor.hpp"
 #include "triaxial/cli/interrupt.hpp"
 
 namespace grainfield::triaxial {
@@ -35,7 +35,7 @@ class CommandLine {
     using Run = std::function<void(Session&)>;
 
     /// Adds a subcommand with --threads, --set, --quiet and the example in its help. `run` is
-    /// called once everything is parsed; it reports by exceptions (core/errors.hpp) only.
+    /// called once everything is parsed; it reports by exceptions (core/base/errors.hpp) only.
     CLI::App& add(CLI::App& app, const std::string& name, const std::string& description,
                   const std::string& example, Run run, OnSignal reaction = OnSignal::stop_safely);
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/sphere_checks.hpp"
 #include "core/files/sphere_file.hpp"
 #include "triaxial/cli/commands.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct ConvertArguments {
     std::string in, out;
 };
 
@@ -66,7 +66,7 @@ bool same_file(const fs::path& a, const fs::path& b) {
            fs::absolute(a).lexically_normal() == fs::absolute(b).lexically_normal();
 }
 
-void run_convert(const Arguments& arguments, Session& session) {
+void run_convert(const ConvertArguments& arguments, Session& session) {
     note_unused_settings(session);
     if (same_file(arguments.in, arguments.out))
         throw InputError(
@@ -88,7 +88,7 @@ void run_convert(const Arguments& arguments, Session& session) {
 }  // namespace
 
 void add_convert_command(CLI::App& app, CommandLine& line) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<ConvertArguments>();
     CLI::App& command = line.add(
         app, "convert",
         fmt::format("Converts a file of spheres; the suffixes say the formats: {}.",

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/text_file.hpp"
-#include "randomfield/field_error.hpp"
 #include "randomfield/field_io.hpp"
-#include "randomfield/verification.hpp"
+#include "randomfield/verification/field_error.hpp"
+#include "randomfield/verification/verification.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/interrupt.hpp"
 #include "triaxial/cli/print_row.hpp"
@@ -27,7 +27,7 @@
 namespace grainfield::triaxial {
 namespace {
 
-struct Arguments {
+struct FieldArguments {
     std::optional<std::string> config;
     std::optional<std::string>
         realizations;  // as given: a number that does not fit is refused, not cut
@@ -76,8 +76,8 @@ void print_property(const randomfield::FieldGenerator& generator, randomfield::P
                           unit.name, generator.conditioning() ? " without data" : ""));
 }
 
-void print_results(const randomfield::FieldGenerator& generator, const Arguments& arguments,
-                   double seconds) {
+void print_fields(const randomfield::FieldGenerator& generator, const FieldArguments& arguments,
+                  double seconds) {
     const randomfield::GridSpec& grid = generator.grid();
     const Vec3& edge = grid.cell_size;
     const Vec3& theta = generator.options().correlation_length;
@@ -120,7 +120,7 @@ void print_verdicts(const std::vector<report::Verdict>& verdicts) {
                                                     outside, verdicts.size()));
 }
 
-void verify_field(const randomfield::FieldGenerator& generator, const Arguments& arguments,
+void verify_field(const randomfield::FieldGenerator& generator, const FieldArguments& arguments,
                   core::Monitor& monitor) {
     const std::uint64_t count = arguments.count();
     monitor.begin(fmt::format("verifying with {} realizations", count));
@@ -132,7 +132,7 @@ void verify_field(const randomfield::FieldGenerator& generator, const Arguments&
     print_row("report", page.string());
 }
 
-void run_field(const Arguments& arguments, Session& session) {
+void run_field(const FieldArguments& arguments, Session& session) {
     const Config config = load_config(arguments.config, session.settings);
     const std::uint64_t count = arguments.count();
     const auto start = std::chrono::steady_clock::now();
@@ -147,14 +147,14 @@ void run_field(const Arguments& arguments, Session& session) {
             arguments.out, generator, count,
             {config.particle.friction_angle, config.particle.normal_stiffness}, session.monitor);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    print_results(generator, arguments, seconds.count());
+    print_fields(generator, arguments, seconds.count());
     if (arguments.verify) verify_field(generator, arguments, session.monitor);
 }
 
 }  // namespace
 
 void add_field_command(CLI::App& app, CommandLine& line) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<FieldArguments>();
     CLI::App& command = line.add(
         app, "field", "Draws realizations of the random field on the grid of blocks.",
         "grainfield field --set field.variable=friction --realizations 3 --out field.csv",

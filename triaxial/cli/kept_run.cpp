@@ -7,7 +7,7 @@
 #include "core/kernel_choice.hpp"
 #include "triaxial/config/load_config.hpp"
 #include "triaxial/config/write_config.hpp"
-#include "triaxial/test/run_files.hpp"
+#include "triaxial/realization/run_files.hpp"
 
 namespace grainfield::triaxial {
 namespace {

@@ -8,8 +8,8 @@
 #include <span>
 #include <string>
 
-#include "core/errors.hpp"
-#include "core/monitor.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/monitor.hpp"
 #include "core/solver_options.hpp"
 #include "core/state/checkpoint.hpp"
 #include "triaxial/config/config.hpp"

@@ -6,18 +6,18 @@
 #include <map>
 #include <optional>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/text_file.hpp"
 #include "triaxial/campaign/campaign.hpp"
 #include "triaxial/campaign/progress.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/print_row.hpp"
-#include "triaxial/test/sample.hpp"
+#include "triaxial/realization/sample.hpp"
 
 namespace grainfield::triaxial {
 namespace {
 
-struct Arguments {
+struct MonteCarloArguments {
     std::string config;
     std::string out;
     std::string shard;
@@ -60,7 +60,7 @@ void print_cases(const std::vector<CampaignCase>& cases, const std::map<RowPlace
     }
 }
 
-void run_montecarlo(const Arguments& arguments, Session& session) {
+void run_montecarlo(const MonteCarloArguments& arguments, Session& session) {
     const std::vector<CampaignCase> cases = load_campaign(arguments.config, session.settings);
     CampaignOptions options;
     options.shard = parse_shard(arguments.shard);
@@ -91,7 +91,7 @@ void run_montecarlo(const Arguments& arguments, Session& session) {
 }  // namespace
 
 void add_montecarlo_command(CLI::App& app, CommandLine& line) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<MonteCarloArguments>();
     CLI::App& command = line.add(
         app, "montecarlo",
         "Runs a campaign: every case of the config, [montecarlo] realizations of each. Stop it, "

@@ -9,18 +9,18 @@
 #include "triaxial/cli/print_row.hpp"
 #include "triaxial/config/load_config.hpp"
 #include "triaxial/config/write_config.hpp"
-#include "triaxial/test/packing_files.hpp"
+#include "triaxial/realization/packing_files.hpp"
 
 namespace grainfield::triaxial {
 namespace {
 
-struct Arguments {
+struct PackArguments {
     std::optional<std::string> config;
     std::string out;
     KeepingArguments keeping;
 };
 
-void print_results(const packing::Packing& p) {
+void print_packing(const packing::Packing& p) {
     print_row("spheres",
               fmt::format("{} ({} in a block)", p.spheres.size(), p.block.spheres.size()));
     print_row("diameters scaled by", fmt::format("{:.5f}", p.block.grading.scale));
@@ -49,7 +49,7 @@ void print_results(const packing::Packing& p) {
     print_row("state hash", p.state_hash);
 }
 
-void run_pack(const Arguments& arguments, Session& session) {
+void run_pack(const PackArguments& arguments, Session& session) {
     const auto beside = [&](const char* suffix) {
         return std::filesystem::path(arguments.out).replace_extension(suffix);
     };
@@ -66,7 +66,7 @@ void run_pack(const Arguments& arguments, Session& session) {
     const packing::Packing packed = kept.run([&] { return pack(config, kept, &checkpoint); });
     write_packing(arguments.out, packed, packed.seconds());
     checkpoint.remove();
-    print_results(packed);
+    print_packing(packed);
     print_row("time", fmt::format("{:.1f} s", packed.seconds()));
     print_row("written", fmt::format("{}, {}", arguments.out, json_beside(arguments.out).string()));
 }
@@ -74,7 +74,7 @@ void run_pack(const Arguments& arguments, Session& session) {
 }  // namespace
 
 void add_pack_command(CLI::App& app, CommandLine& line) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<PackArguments>();
     CLI::App& command = line.add(
         app, "pack",
         "Packs one block to the grading and porosity, clones it by mirror flips and lets the "

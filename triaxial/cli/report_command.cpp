@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/print_row.hpp"
 #include "triaxial/report/campaign/campaign_data.hpp"
@@ -14,12 +14,12 @@
 namespace grainfield::triaxial {
 namespace {
 
-struct Arguments {
+struct ReportArguments {
     std::string folder;
     std::vector<std::string> companions;
 };
 
-void run_report(const Arguments& arguments, Session& session) {
+void run_report(const ReportArguments& arguments, Session& session) {
     note_unused_settings(session);
     session.monitor.begin("drawing the report");
     const std::vector<std::filesystem::path> companions(arguments.companions.begin(),
@@ -37,7 +37,7 @@ void run_report(const Arguments& arguments, Session& session) {
 }  // namespace
 
 void add_report_command(CLI::App& app, CommandLine& line) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<ReportArguments>();
     CLI::App& command = line.add(
         app, "report",
         "Makes DIR/report.html, one page with the figures of a triaxial run or of a campaign.",

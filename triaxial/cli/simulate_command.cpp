@@ -23,13 +23,13 @@ constexpr const char* files_text =
     "or, where the simulation fails, state.h5 alone; where it is interrupted, checkpoint.bin and\n"
     "the tables so far (.part), from which --resume goes on.\n";
 
-struct Arguments {
+struct SimulateArguments {
     std::string scene, out;
     KeepingArguments keeping;
 };
 
 /// Checksum of all that the run is made of: scene, settings, spheres.
-std::string checksum_of_inputs(const Arguments& arguments, const SceneFile& scene,
+std::string checksum_of_inputs(const SimulateArguments& arguments, const SceneFile& scene,
                                const std::vector<std::string>& settings) {
     core::Checksum checksum;
     const auto add = [&](const std::string& text) { checksum.add(text.c_str(), text.size() + 1); };
@@ -42,7 +42,7 @@ std::string checksum_of_inputs(const Arguments& arguments, const SceneFile& scen
     return hex;
 }
 
-void run_simulate(const Arguments& arguments, Session& session) {
+void run_simulate(const SimulateArguments& arguments, Session& session) {
     const std::filesystem::path out = arguments.out;
     const std::filesystem::path file = out / "checkpoint.bin";
     const auto found = arguments.keeping.find(file, session.monitor);
@@ -76,7 +76,7 @@ void run_simulate(const Arguments& arguments, Session& session) {
 }  // namespace
 
 void add_simulate_command(CLI::App& app, CommandLine& line) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<SimulateArguments>();
     CLI::App& command =
         line.add(app, "simulate",
                  "Runs a scene of spheres and plane walls: trajectories, energies, contacts.",

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/monitor.hpp"
+#include "core/base/monitor.hpp"
 
 namespace grainfield::triaxial {
 

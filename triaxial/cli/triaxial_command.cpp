@@ -6,29 +6,29 @@
 #include <numbers>
 #include <optional>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/folder.hpp"
 #include "core/files/text_file.hpp"
 #include "core/kernel_choice.hpp"
 #include "core/state/part_of.hpp"
-#include "core/stopwatch.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/kept_run.hpp"
 #include "triaxial/cli/print_row.hpp"
 #include "triaxial/config/load_config.hpp"
 #include "triaxial/config/write_config.hpp"
+#include "triaxial/realization/packing_files.hpp"
+#include "triaxial/realization/run_files.hpp"
+#include "triaxial/realization/sample.hpp"
 #include "triaxial/report/report.hpp"
-#include "triaxial/test/packing_files.hpp"
-#include "triaxial/test/run_files.hpp"
-#include "triaxial/test/sample.hpp"
 
 namespace grainfield::triaxial {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct TriaxialArguments {
     std::optional<std::string> config;
     std::optional<std::string> packing;
     std::optional<std::int64_t> realization;
@@ -50,7 +50,7 @@ Sample sample_from_nothing(const Config& config, const fs::path& out, core::Moni
     return {std::move(packed.spheres), packed.box};
 }
 
-void print_results(const TestResult& r, const Config& config, const FieldRecord& field) {
+void print_test(const TestResult& r, const Config& config, const FieldRecord& field) {
     const double degrees = 180 / std::numbers::pi;
     print_row("confining stress",
               fmt::format("{:.1f} kPa, held within {:.3f} % (RMS), {:.3f} % at most",
@@ -90,7 +90,7 @@ struct Run {
 };
 
 /// What was asked for, completed by the checkpoint where the run resumes.
-Run prepare(const Arguments& arguments, const fs::path& checkpoint, Session& session) {
+Run prepare_run(const TriaxialArguments& arguments, const fs::path& checkpoint, Session& session) {
     Run run;
     run.found = arguments.keeping.find(checkpoint, session.monitor);
     run.packing = arguments.packing;
@@ -153,10 +153,10 @@ core::Simulation begin_test(const Run& run, Before& before, const kernels::Kerne
                            run.packing.value_or("the packing"), options);
 }
 
-void run_triaxial(const Arguments& arguments, Session& session) {
+void run_triaxial(const TriaxialArguments& arguments, Session& session) {
     const fs::path out = arguments.out;
     const fs::path checkpoint_file = out / "checkpoint.bin";
-    const Run run = prepare(arguments, checkpoint_file, session);
+    const Run run = prepare_run(arguments, checkpoint_file, session);
     const Config& config = run.config;
     check_field_data(config);
     const kernels::KernelTable& kernels = core::choose_kernels(config.solver);
@@ -185,7 +185,7 @@ void run_triaxial(const Arguments& arguments, Session& session) {
 
     print_row("spheres", fmt::format("{}, {} contacts when shear began",
                                      simulation.spheres().size(), result.contacts));
-    print_results(result, config, field);
+    print_test(result, config, field);
     const double total = summary["wall_seconds"]["total"];
     print_row("time",
               fmt::format(
@@ -201,7 +201,7 @@ void run_triaxial(const Arguments& arguments, Session& session) {
 }  // namespace
 
 void add_triaxial_command(CLI::App& app, CommandLine& line) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<TriaxialArguments>();
     CLI::App& command =
         line.add(app, "triaxial",
                  "Runs one triaxial test: packing (made, or read), random field, isotropic "

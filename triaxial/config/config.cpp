@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "triaxial/config/config_keys.hpp"
 #include "triaxial/config/toml_text.hpp"
 

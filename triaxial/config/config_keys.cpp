@@ -6,7 +6,7 @@ namespace {
 // Structured bindings on purpose: a member added to one of these structs without a key here does
 // not compile, so nothing can be left out of files by accident.
 
-constexpr Range percent{0, 100, true, true, "in [0, 100]"};
+constexpr Range percentage{0, 100, true, true, "in [0, 100]"};
 constexpr Range porosity_range{0.2, 0.9, false, false, "in (0.2, 0.9)"};
 constexpr Range ratio{0, 1, true, true, "in [0, 1]"};
 constexpr Range strain_range{0, 0.5, false, true, "in (0, 0.5]"};
@@ -15,7 +15,7 @@ constexpr Range share{0, 1, false, false, "in (0, 1)"};
 void add_keys(Keys& keys, packing::Grading& grading) {
     auto& [sieve_diameter, passing] = grading;
     keys.push_back({"grading.sieve_diameter", slot(sieve_diameter, positive), "m"});
-    keys.push_back({"grading.passing", slot(passing, percent), "% by mass"});
+    keys.push_back({"grading.passing", slot(passing, percentage), "% by mass"});
 }
 
 void add_keys(Keys& keys, packing::PackingOptions& packing) {

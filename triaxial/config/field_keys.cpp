@@ -10,7 +10,7 @@ namespace {
 constexpr Range correlation_range{
     -1, 1, true, true, "in [-1, 1], where the correlation matrix has no negative eigenvalue"};
 
-// As randomfield/marginal_checks.cpp has them, here with file and line.
+// As randomfield/marginals/marginal_checks.cpp has them, here with file and line.
 constexpr Range stiffness_range{1e-100, 1e100, true, true, "in [1e-100, 1e100]"};
 constexpr Range variation{1e-6, 1e3, true, true, "in [1e-6, 1000]"};
 constexpr Range variability{1e-6, 1e6, true, true, "in [1e-6, 1e6]"};

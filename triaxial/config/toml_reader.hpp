@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "triaxial/config/key_slot.hpp"
 #include "triaxial/config/toml_value.hpp"
 

@@ -12,7 +12,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "triaxial/config/toml_text.hpp"
 
 namespace grainfield::triaxial {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "triaxial/report/figures.hpp"
 #include "triaxial/report/text.hpp"
 

@@ -12,7 +12,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/text_file.hpp"
 #include "triaxial/report/text.hpp"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/text_file.hpp"
 
 namespace grainfield::triaxial::report {

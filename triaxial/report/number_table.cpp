@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/text_file.hpp"
 
 namespace grainfield::triaxial::report {

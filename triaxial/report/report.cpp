@@ -41,7 +41,7 @@ void add_packing(const Gnuplot& gnuplot, const RunFolder& run, Page& page) {
     }
 }
 
-std::string build_page(const RunFolder& run, std::span<const MohrCircle> companions) {
+std::string run_page(const RunFolder& run, std::span<const MohrCircle> companions) {
     const Gnuplot gnuplot;
     const std::string words = escape(case_in_words(run.summary));
     const std::string folder =
@@ -85,7 +85,7 @@ std::filesystem::path write_report(const std::filesystem::path& dir,
     std::vector<MohrCircle> circles;
     for (const auto& companion : companions) circles.push_back(read_mohr_circle(companion));
     const std::filesystem::path path = dir / "report.html";
-    core::write_file_atomically(path, build_page(run, circles));
+    core::write_file_atomically(path, run_page(run, circles));
     return path;
 }
 

@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/energy_csv.hpp"
 #include "core/files/sphere_file.hpp"
 #include "core/files/text_file.hpp"
@@ -34,7 +34,7 @@ KeyResults key_results(const JsonFile& summary) {
     return results;
 }
 
-std::string read_config(const std::filesystem::path& path) {
+std::string config_text(const std::filesystem::path& path) {
     std::string text = core::read_whole_file(path);
     try {
         (void)toml::parse(text);
@@ -66,7 +66,7 @@ RunFolder read_run_folder(const std::filesystem::path& dir) {
                   .summary = JsonFile(dir / "summary.json"),
                   .results = {},
                   .curve = read_curve(dir / "curve.csv"),
-                  .config = read_config(dir / "config.toml"),
+                  .config = config_text(dir / "config.toml"),
                   .energies = read_energies(dir / "energy.csv"),
                   .packing = std::nullopt,
                   .spheres = {},

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/energy.hpp"
-#include "core/particle_store.hpp"
+#include "core/scene/energy.hpp"
+#include "core/scene/particle_store.hpp"
 #include "triaxial/report/curve_file.hpp"
 #include "triaxial/report/json_file.hpp"
 #include "triaxial/report/mohr.hpp"

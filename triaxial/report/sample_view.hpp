@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/particle_store.hpp"
+#include "core/scene/particle_store.hpp"
 
 namespace grainfield::triaxial::report {
 

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <vector>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/text_file.hpp"
 
 namespace grainfield::triaxial {
@@ -43,7 +43,7 @@ bool agrees(const core::Checksum& checksum, const CsvStream::Mark& mark) {
 }
 
 /// The checksum of the rows at `mark`, which stand in the table's .part now.
-core::Checksum rows_of(const fs::path& path, const CsvStream::Mark& mark) {
+core::Checksum written_rows(const fs::path& path, const CsvStream::Mark& mark) {
     const fs::path part = part_of(path);
     core::Checksum rows = beginning_of(part, mark);
     if (agrees(rows, mark)) return rows;
@@ -73,7 +73,7 @@ CsvStream::CsvStream(const fs::path& path, std::string_view header)
 
 CsvStream::CsvStream(const fs::path& path, const Mark& mark)
     : path_(path),
-      checksum_(rows_of(path, mark)),
+      checksum_(written_rows(path, mark)),
       file_(path, part_of(path), true),
       out_(::open(file_.path().c_str(), O_RDWR)),
       marked_(true) {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <optional>
 
-#include "core/driver.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/drive/driver.hpp"
 #include "core/kernel_choice.hpp"
 #include "core/state/part_of.hpp"
-#include "core/stopwatch.hpp"
 #include "triaxial/scene/scene_output.hpp"
 #include "triaxial/scene/scene_setup.hpp"
 

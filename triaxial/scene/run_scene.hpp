@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/monitor.hpp"
+#include "core/base/monitor.hpp"
 #include "core/state/checkpoint.hpp"
 #include "triaxial/config/scene_file.hpp"
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/sphere_checks.hpp"
 #include "core/files/sphere_file.hpp"
 #include "core/neighbour_search.hpp"

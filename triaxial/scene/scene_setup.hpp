@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scene.hpp"
-#include "core/servo.hpp"
+#include "core/drive/servo.hpp"
+#include "core/scene/scene.hpp"
 #include "triaxial/config/scene_file.hpp"
 
 namespace grainfield::triaxial {

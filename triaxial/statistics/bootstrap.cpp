@@ -6,15 +6,15 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/errors.hpp"
-#include "core/random.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/random.hpp"
 #include "triaxial/statistics/moments.hpp"
 
 namespace grainfield::triaxial::statistics {
 namespace {
 
 // C(9, 5) = 126 different resamples of five values, but 10 of three.
-constexpr std::size_t fewest_values = 5;
+constexpr std::size_t fewest_resampled = 5;
 
 // Acceleration, Efron & Tibshirani Eq. (14.15): a sixth of the skewness of the jackknife
 // replicates' influence, zero where there is none.
@@ -34,7 +34,7 @@ std::optional<Interval> interval_of(std::span<const double> values, const Statis
                                     double confidence, const Resampling& resampling) {
     tail_of(confidence);
     resampling.validate();
-    if (values.size() < fewest_values) return {};
+    if (values.size() < fewest_resampled) return {};
     if (std::ranges::min(values) == std::ranges::max(values)) return {};
     return bca_interval(statistic(values), bootstrap_replicates(values, statistic, resampling),
                         jackknife_replicates(values, statistic), confidence);

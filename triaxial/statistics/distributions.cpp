@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 
 namespace grainfield::triaxial::statistics {
 namespace {

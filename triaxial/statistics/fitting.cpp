@@ -12,7 +12,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "triaxial/statistics/distributions.hpp"
 #include "triaxial/statistics/moments.hpp"
 #include "triaxial/statistics/sample.hpp"

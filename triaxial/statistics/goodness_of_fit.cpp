@@ -8,14 +8,14 @@
 #include <limits>
 #include <vector>
 
-#include "core/errors.hpp"
-#include "core/random.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/random.hpp"
 
 namespace grainfield::triaxial::statistics {
 namespace {
 
 // Below this Table 4.7's modification of A^2 is not good to its third digit, and D tells little.
-constexpr std::size_t fewest_values = 8;
+constexpr std::size_t fewest_tested = 8;
 
 /// The fit that the distance tests measure from: deviations are over n - 1, as in their tables.
 Fit tested_fit(Family family, std::span<const double> values) {
@@ -97,7 +97,7 @@ std::optional<DistanceTest> distance_test(Distance distance, Family family,
                                           double (*normal_p)(double, std::size_t)) {
     resampling.validate();
     require_values_of(family, values);
-    if (values.size() < fewest_values) return {};
+    if (values.size() < fewest_tested) return {};
     const Prepared sample = prepare(family, values);
     const Fit tested = tested_fit(sample.family, sample.ascending);
     DistanceTest test{.statistic = distance(tested, sample.ascending)};
@@ -153,9 +153,9 @@ std::optional<DistanceTest> anderson_darling_test(Family family, std::span<const
 }
 
 double anderson_darling_p(double statistic, std::size_t n) {
-    if (n < fewest_values || !std::isfinite(statistic))
+    if (n < fewest_tested || !std::isfinite(statistic))
         throw InputError(fmt::format("p of A^2 = {} of {} values: takes a number and at least {}",
-                                     statistic, n, fewest_values));
+                                     statistic, n, fewest_tested));
     const auto count = static_cast<double>(n);
     const double a = std::min(statistic * (1 + 0.75 / count + 2.25 / (count * count)), 13.0);
     // Table 4.9, row by row.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "triaxial/statistics/sample.hpp"
 
 namespace grainfield::triaxial::statistics {

@@ -3,7 +3,7 @@
 #include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "triaxial/statistics/sample.hpp"
 
 namespace grainfield::triaxial::statistics {

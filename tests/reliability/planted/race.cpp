@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "core/tasks.hpp"
+#include "core/base/tasks.hpp"
 
 int main() {
     std::vector<long> parts(64);

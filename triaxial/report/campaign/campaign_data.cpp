@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/files/text_file.hpp"
 #include "triaxial/config/toml_text.hpp"
 #include "triaxial/config/toml_value.hpp"

@@ -125,7 +125,7 @@ std::string lead(const CampaignData& data) {
                        data.cases.size() == 1 ? "" : "s", failed, duration(data.wall_seconds));
 }
 
-std::string build_page(const CampaignData& data, const CampaignStatistics& all) {
+std::string campaign_page(const CampaignData& data, const CampaignStatistics& all) {
     const Gnuplot gnuplot;
     const std::string folder =
         escape(std::filesystem::weakly_canonical(data.path).filename().string());
@@ -177,7 +177,7 @@ std::filesystem::path write_campaign_report(const std::filesystem::path& dir) {
     const CampaignStatistics all = campaign_statistics(data);
     core::write_file_atomically(dir / "statistics.csv", statistics_csv(data, all));
     const std::filesystem::path path = dir / "report.html";
-    core::write_file_atomically(path, build_page(data, all));
+    core::write_file_atomically(path, campaign_page(data, all));
     return path;
 }
 

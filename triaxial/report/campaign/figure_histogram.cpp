@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "triaxial/report/campaign/campaign_figures.hpp"
 #include "triaxial/report/text.hpp"
 #include "triaxial/statistics/histogram.hpp"

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "randomfield/verification.hpp"
+#include "randomfield/verification/verification.hpp"
 #include "triaxial/report/figures.hpp"
 
 namespace grainfield::triaxial::report {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "randomfield/verification.hpp"
+#include "randomfield/verification/verification.hpp"
 
 namespace grainfield::triaxial {
 

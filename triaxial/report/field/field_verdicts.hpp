@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "randomfield/verification.hpp"
+#include "randomfield/verification/verification.hpp"
 
 namespace grainfield::triaxial::report {
 

@@ -1,0 +1,79 @@
+#include "core/drive/step_control.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace grainfield::core {
+namespace {
+
+/// Steps between two estimates. A contact that forms takes several steps to matter, and safety
+/// leaves room for one more spring on the worst sphere.
+std::int64_t estimate_interval(std::size_t spheres) {
+    return spheres > 20000 ? 400 : 20;
+}
+
+constexpr int full_rounds = 5;                             // of Lanczos, from scratch
+constexpr int update_rounds = 1;                           // starting from the last mode
+constexpr int full_iterations = 8, update_iterations = 5;  // a round
+
+/// Grows whenever there are other neighbours.
+std::int64_t searches(const Simulation& simulation) {
+    return simulation.neighbour_searches() + simulation.neighbour_renewals();
+}
+
+}  // namespace
+
+double StepControl::frequency(const Simulation& simulation, int rounds) {
+    network_ = estimator_.estimate(simulation, rounds,
+                                   rounds == full_rounds ? full_iterations : update_iterations);
+    const double caught = caught_frequency(simulation, network_);
+    caught_governs_ = caught > network_;
+    searches_ = searches(simulation);
+    return std::max(network_, caught);
+}
+
+double StepControl::next(Simulation& simulation) {
+    const bool scaled = options_.mass_scaling > 1.0;
+    if (options_.step && !scaled) return *options_.step;
+    if (due(simulation)) {
+        const bool first = next_estimate_ < 0;
+        omega_ = frequency(simulation, first ? full_rounds : update_rounds);
+        if (scaled && (first || omega_ > 1.05 * omega_target_)) scale_masses(simulation);
+        next_estimate_ = simulation.steps() + estimate_interval(simulation.size());
+    } else if (caught_governs_ && searches_ != searches(simulation)) {
+        // Other neighbours than those that the bound was found for.
+        omega_ = std::max(network_, caught_frequency(simulation, network_));
+        searches_ = searches(simulation);
+    } else {
+        return step_;
+    }
+    const double governing = scaled ? std::max(omega_, omega_target_) : omega_;
+    step_ = options_.step ? *options_.step : options_.safety * 2.0 / governing;
+    return step_;
+}
+
+void StepControl::scale_masses(Simulation& simulation) {
+    const std::size_t n = simulation.size();
+    std::vector<double> scale(n, 1.0);
+    simulation.set_inertia_scale(scale);
+    omega_target_ = frequency(simulation, full_rounds) / options_.mass_scaling;
+    std::vector<double> local = local_square_frequencies(simulation);
+    const std::vector<double> caught = caught_square_frequencies(simulation);
+    for (std::size_t i = 0; i < n; ++i) local[i] = std::max(local[i], caught[i]);
+    // A mode of the network is up to sqrt(2) faster than a sphere between fixed neighbours: find
+    // the smallest margin that brings the scaled network under the target.
+    for (double margin = 1.0; margin < 3.0; margin *= 1.1) {
+        for (std::size_t i = 0; i < n; ++i)
+            scale[i] = std::max(1.0, margin * local[i] / (omega_target_ * omega_target_));
+        simulation.set_inertia_scale(scale);
+        omega_ = frequency(simulation, full_rounds);
+        if (omega_ <= omega_target_) break;
+    }
+    const auto& mass = simulation.spheres().mass;
+    double scaled_mass = 0;
+    for (std::size_t i = 0; i < n; ++i) scaled_mass += mass[i] * scale[i];
+    inertia_ratio_ = scaled_mass / std::accumulate(mass.begin(), mass.end(), 0.0);
+}
+
+}  // namespace grainfield::core

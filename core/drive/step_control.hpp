@@ -1,0 +1,59 @@
+#pragma once
+// The time step of a run, and the masses it needs.
+
+#include <cstdint>
+
+#include "core/drive/frequency.hpp"
+#include "core/simulation.hpp"
+#include "core/solver_options.hpp"
+
+namespace grainfield::core {
+
+/// Chooses the step: fixed, or safety * 2/omega_max, estimated anew now and then as contacts form.
+///
+/// With mass scaling X, spheres whose own frequency is too high for a step X times larger get the
+/// mass (and inertia) that it needs; gravity keeps acting on the real mass.
+class StepControl {
+  public:
+    explicit StepControl(const TimeOptions& options) : options_(options) {}
+
+    /// Step for the coming advance() [s]; forces must be current. May change the inertia of the
+    /// spheres (mass scaling).
+    double next(Simulation& simulation);
+
+    /// True if next() will look at the contacts: forces must be current then.
+    bool due(const Simulation& simulation) const {
+        const bool fixed = options_.step && options_.mass_scaling <= 1.0;
+        return !fixed && (next_estimate_ < 0 || simulation.steps() >= next_estimate_);
+    }
+
+    /// The present limit 2/omega_max with the inertia in use [s]; 0 before the first estimate.
+    double limit() const { return omega_ > 0 ? 2.0 / omega_ : 0.0; }
+    /// Inertia of all spheres over their real mass, 1 without scaling [-].
+    double inertia_ratio() const { return inertia_ratio_; }
+    /// Forces a full estimate at the next step (properties or walls have changed).
+    void reset() { next_estimate_ = -1; }
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+        archive(estimator_, network_, caught_governs_, searches_, omega_, omega_target_,
+                inertia_ratio_, step_, next_estimate_);
+    }
+
+  private:
+    void scale_masses(Simulation& simulation);
+    double frequency(const Simulation& simulation, int rounds);
+
+    TimeOptions options_;
+    FrequencyEstimator estimator_;
+    double network_ = 0;           // highest frequency of the contacts there are [rad/s]
+    bool caught_governs_ = false;  // a sphere caught between its neighbours could be faster still
+    std::int64_t searches_ = 0;    // neighbour searches when that was found
+    double omega_ = 0;             // with the inertia in use [rad/s]
+    double omega_target_ = 0;      // mass scaling: what the scaled network may have [rad/s]
+    double inertia_ratio_ = 1;
+    double step_ = 0;
+    std::int64_t next_estimate_ = -1;
+};
+
+}  // namespace grainfield::core

@@ -1,0 +1,171 @@
+#include "triaxial/realization/shear.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/errors.hpp"
+#include "core/drive/box.hpp"
+#include "core/state/part_of.hpp"
+#include "packing/isotropic.hpp"
+
+namespace grainfield::triaxial {
+namespace {
+
+constexpr std::size_t top_wall = 3;          // y high, in the order of box_walls()
+constexpr double recording_interval = 5e-5;  // of axial strain [-]
+constexpr double servo_speed_share = 5.0;    // cap of the side walls over the axial rate [-]
+constexpr double settled_strain = 1e-3;      // from here the largest servo error counts [-]
+constexpr double servo_lost = 0.5;           // error of a lateral stress that ends a test ... [-]
+constexpr int servo_patience = 150;          // ... after so many steps in a row
+
+/// Poisson's ratio of a random packing whose spheres move with the mean strain:
+/// (1 - lambda)/(4 + lambda). Only the start of the test uses it.
+double affine_poisson_ratio(double lambda) {
+    return (1 - lambda) / (4 + lambda);
+}
+
+}  // namespace
+
+ShearStage::ShearStage(core::Driver& driver, const TriaxialOptions& options)
+    : driver_(driver),
+      options_(options),
+      start_size_(core::box_dimensions(driver.simulation())),
+      peak_(options.confining_stress) {
+    for (std::size_t wall : {0u, 1u, 4u, 5u})
+        servos_.emplace_back(wall, core::WallServo::Options{
+                                       .stress = options.confining_stress,
+                                       .max_speed = servo_speed_share * options.strain_rate * 0.5 *
+                                                    start_size_[static_cast<int>(wall) / 2]});
+}
+
+/// Gives every sphere and wall the velocity of the imposed strain field, so that the test does not
+/// begin with a jolt from the top.
+void ShearStage::start_affine() {
+    core::Simulation& simulation = driver_.simulation();
+    const double lateral =
+        affine_poisson_ratio(simulation.scene().stiffness_ratio) * options_.strain_rate;
+    const Vec3 low(simulation.walls()[0].point.x(), simulation.walls()[2].point.y(),
+                   simulation.walls()[4].point.z());
+    const Vec3 middle = low + 0.5 * start_size_;
+    simulation.add_velocities([&](std::size_t, const Vec3& x) {
+        return Vec3(lateral * (x.x() - middle.x()), -options_.strain_rate * (x.y() - low.y()),
+                    lateral * (x.z() - middle.z()));
+    });
+    for (core::WallServo& servo : servos_)
+        servo.set_speed(0.5 * lateral * start_size_[static_cast<int>(servo.wall()) / 2]);
+}
+
+double ShearStage::axial_strain() const {
+    return 1 - core::box_dimensions(driver_.simulation()).y() / start_size_.y();
+}
+
+void ShearStage::steer(double step) {
+    core::Simulation& simulation = driver_.simulation();
+    const Vec3 size = core::box_dimensions(simulation);
+    simulation.set_wall_velocity(top_wall, Vec3(0, -options_.strain_rate * size.y(), 0));
+    for (core::WallServo& servo : servos_)
+        servo.steer(simulation, core::wall_area(size, static_cast<int>(servo.wall()) / 2), step);
+    const Vec3 stress(core::axis_stress(simulation, 0), core::axis_stress(simulation, 1),
+                      core::axis_stress(simulation, 2));
+    stress_sum_ += stress;
+    ++stress_count_;
+    double worst = 0;
+    for (int axis : {0, 2}) {
+        const double error = stress[axis] / options_.confining_stress - 1;
+        square_error_sum_ += error * error;
+        worst = std::max(worst, std::abs(error));
+    }
+    time_ += step;
+    watch_servos(worst);
+}
+
+/// Ends a test whose side walls cannot follow: what it would measure is another stress path.
+void ShearStage::watch_servos(double error) {
+    steps_off_ = error > servo_lost && axial_strain() > settled_strain ? steps_off_ + 1 : 0;
+    if (steps_off_ < servo_patience) return;
+    const core::Simulation& simulation = driver_.simulation();
+    throw SimulationError(fmt::format(
+        "the side walls do not hold the confining stress of {:g} Pa: {:g} and {:g} Pa now, more "
+        "than {:g} % off for {} steps (step {}, time {:g} s, axial strain {:.3f} %)",
+        options_.confining_stress, core::axis_stress(simulation, 0),
+        core::axis_stress(simulation, 2), 100 * servo_lost, servo_patience, simulation.steps(),
+        simulation.time(), 100 * axial_strain()));
+}
+
+/// Adds a point to the curve; true if the test may end.
+bool ShearStage::record() {
+    core::Simulation& simulation = driver_.simulation();
+    const Vec3 mean = stress_sum_ / static_cast<double>(stress_count_);
+    CurvePoint point;
+    point.axial_strain = axial_strain();
+    point.axial_stress = mean.y();
+    point.lateral_stress_x = mean.x();
+    point.lateral_stress_z = mean.z();
+    point.deviator_stress = mean.y() - 0.5 * (mean.x() + mean.z());
+    point.volumetric_strain = 1 - core::box_dimensions(simulation).prod() / start_size_.prod();
+    point.unbalanced_force_ratio = simulation.unbalanced_force_ratio();
+    point.time = time_;
+    point.contacts = simulation.contact_sums().contacts;
+    curve_.push_back(point);
+    if (point.axial_strain > settled_strain)
+        for (int axis : {0, 2})
+            max_error_ = std::max(max_error_, std::abs(mean[axis] / options_.confining_stress - 1));
+    stress_sum_.setZero();
+    stress_count_ = 0;
+
+    const bool past = peak_.past_peak(point);
+    if (options_.max_axial_strain) {
+        if (point.axial_strain < *options_.max_axial_strain) return false;
+        end_reason_ =
+            fmt::format("{:g} % of axial strain, as asked for", 100 * *options_.max_axial_strain);
+        return true;
+    }
+    if (past) end_reason_ = peak_.reason();
+    return past;
+}
+
+template <class Archive>
+void ShearStage::archive_state(Archive& archive) {
+    using core::bytes;
+    archive(bytes(start_size_), bytes(curve_), peak_, steps_, time_, bytes(stress_sum_),
+            stress_count_, next_strain_, square_error_sum_, max_error_, steps_off_);
+    for (core::WallServo& servo : servos_) archive(servo);
+}
+
+void ShearStage::run() {
+    const auto part = core::part_of(driver_.checkpoint(), "shear",
+                                    [this](auto& archive) { archive_state(archive); });
+    if (!part.resumed()) start_affine();
+    driver_.limit_kinetic_energy(core::most_kinetic_energy(
+        driver_.simulation(), options_.strain_rate, options_.confining_stress));
+    for (bool ended = false; !ended;) {
+        driver_.safe_point();
+        const bool due = axial_strain() >= next_strain_;
+        driver_.step(due, [&](double step) {
+            steer(step);
+            if (!due) return;
+            ended = record();
+            next_strain_ += recording_interval;
+        });
+        ++steps_;
+        if (steps_ % 50 == 0) {
+            const CurvePoint& last = curve_.back();
+            const double done =
+                options_.max_axial_strain ? last.axial_strain / *options_.max_axial_strain : -1;
+            driver_.monitor().progress(done, steps_,
+                                       fmt::format("strain {:.3f} %, q {:.1f} kPa, peak {:.1f} kPa",
+                                                   100 * last.axial_strain,
+                                                   last.deviator_stress / 1e3, peak_.peak() / 1e3));
+        }
+    }
+    driver_.simulation().compute_forces(true);
+}
+
+double ShearStage::lateral_rms_error() const {
+    return std::sqrt(square_error_sum_ /
+                     (2.0 * static_cast<double>(std::max<std::int64_t>(1, steps_))));
+}
+
+}  // namespace grainfield::triaxial
