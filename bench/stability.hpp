@@ -64,7 +64,7 @@ core::Simulation settled(const core::Scene& scene);
 /// braces stand doubled.
 std::string coloured(std::string_view script);
 
-/// A CSV and the picture of a gnuplot script as stability_NAME.csv and .png in the run's folder.
+/// A CSV and the picture of a gnuplot script as stability_*.csv and .png in the run's folder.
 void write_results(const StabilityRun& run, std::string_view name, std::string_view csv,
                    const triaxial::report::Gnuplot& gnuplot, triaxial::report::PictureSize size,
                    std::string_view script);

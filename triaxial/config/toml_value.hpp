@@ -21,7 +21,7 @@ struct TomlValue {
         std::variant<std::monostate, bool, std::int64_t, double, std::string, Array, Table>;
 
     Data data;
-    std::string origin;  ///< "paper.toml:12" or "--set key=value", for messages
+    std::string origin;  ///< "config.toml:12" or "--set key=value", for messages
 
     bool is_table() const { return std::holds_alternative<Table>(data); }
     /// Entry of this table; nullptr where there is none or this is no table.
