@@ -27,14 +27,14 @@ std::string first_difference(const std::string& here, const std::string& there) 
 
 }  // namespace
 
-void KeepingArguments::add_to(CLI::App& command) {
+void KeepingArguments::add_to(ArgumentParser& command) {
     command.add_flag("--resume", resume,
                      "Go on from the checkpoint that an interrupted run left; ends with the same "
                      "bits as if it had not been interrupted");
     command
-        .add_option("--checkpoint-every", every,
-                    "Seconds between two checkpoints, 60 unless given; 0: only on SIGINT, SIGTERM")
-        ->check(CLI::Range(0.0, 1e9));
+        .add("--checkpoint-every", every,
+             "Seconds between two checkpoints, 60 unless given; 0: only on SIGINT, SIGTERM")
+        .range(0.0, 1e9);
 }
 
 std::optional<core::FoundCheckpoint> KeepingArguments::find(const std::filesystem::path& file,

@@ -1,7 +1,6 @@
 #pragma once
 // Runs that outlive what befalls them: checkpoints, --resume, and the state of one that failed.
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "core/base/monitor.hpp"
 #include "core/solver_options.hpp"
 #include "core/state/checkpoint.hpp"
+#include "triaxial/cli/argument_parser.hpp"
 #include "triaxial/config/config.hpp"
 
 namespace grainfield::triaxial {
@@ -21,7 +21,7 @@ struct KeepingArguments {
     bool resume = false;
     double every = 60;  ///< between two checkpoints; 0: only when the run is interrupted [s]
 
-    void add_to(CLI::App& command);
+    void add_to(ArgumentParser& command);
     /// With --resume the checkpoint that a run left in `file`; damaged ones are told to the
     /// monitor. Nothing where there is none: the run begins anew, and the monitor is told. Throws
     /// FileError where none of those that are there can be used.

@@ -73,18 +73,17 @@ void run_pack(const PackArguments& arguments, Session& session) {
 
 }  // namespace
 
-void add_pack_command(CLI::App& app, CommandLine& line) {
+void add_pack_command(CommandLine& line) {
     auto arguments = std::make_shared<PackArguments>();
-    CLI::App& command = line.add(
-        app, "pack",
+    ArgumentParser command = line.add(
+        "pack",
         "Packs one block to the grading and porosity, clones it by mirror flips and lets the "
         "sample settle under gravity. Writes the spheres and, beside them, a .json.",
         "grainfield pack --set packing.spheres=351 --out P.h5",
         [arguments](Session& session) { run_pack(*arguments, session); });
-    command.add_option("config", arguments->config, "Config (TOML); without one the paper's case");
-    command
-        .add_option("--out", arguments->out, "File to write: .h5 (ParaView), .csv, .data or .txt")
-        ->required();
+    command.add("config", arguments->config, "Config (TOML); without one the paper's case");
+    command.add("--out", arguments->out, "File to write: .h5 (ParaView), .csv, .data or .txt")
+        .required();
     arguments->keeping.add_to(command);
 }
 

@@ -75,17 +75,16 @@ void run_simulate(const SimulateArguments& arguments, Session& session) {
 
 }  // namespace
 
-void add_simulate_command(CLI::App& app, CommandLine& line) {
+void add_simulate_command(CommandLine& line) {
     auto arguments = std::make_shared<SimulateArguments>();
-    CLI::App& command =
-        line.add(app, "simulate",
-                 "Runs a scene of spheres and plane walls: trajectories, energies, contacts.",
-                 "grainfield simulate scene.toml --out run --set time.end=0.1",
-                 [arguments](Session& session) { run_simulate(*arguments, session); });
-    command.footer(std::string(files_text) + command.get_footer());
-    command.add_option("scene", arguments->scene, "Scene (TOML)")->required();
-    command.add_option("--out", arguments->out, "Folder for the results, made where it is missing")
-        ->required();
+    ArgumentParser command = line.add(
+        "simulate", "Runs a scene of spheres and plane walls: trajectories, energies, contacts.",
+        "grainfield simulate scene.toml --out run --set time.end=0.1",
+        [arguments](Session& session) { run_simulate(*arguments, session); });
+    command.set_footer(files_text + command.footer());
+    command.add("scene", arguments->scene, "Scene (TOML)").required();
+    command.add("--out", arguments->out, "Folder for the results, made where it is missing")
+        .required();
     arguments->keeping.add_to(command);
 }
 

@@ -200,22 +200,22 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
 
 }  // namespace
 
-void add_triaxial_command(CLI::App& app, CommandLine& line) {
+void add_triaxial_command(CommandLine& line) {
     auto arguments = std::make_shared<TriaxialArguments>();
-    CLI::App& command =
-        line.add(app, "triaxial",
+    ArgumentParser command =
+        line.add("triaxial",
                  "Runs one triaxial test: packing (made, or read), random field, isotropic "
                  "compression, shear past the peak, "
                  "report.",
                  "grainfield triaxial --packing P.h5 --set field.variable=stiffness --realization "
                  "7 --out run7",
                  [arguments](Session& session) { run_triaxial(*arguments, session); });
-    command.add_option("config", arguments->config, "Config (TOML); without one the paper's case");
-    command.add_option("--packing", arguments->packing,
-                       "Packing to start from, .h5 or .csv; without one it is made");
-    command.add_option("--realization", arguments->realization,
-                       "Which realization of the field, 0 unless given");
-    command.add_option("--out", arguments->out, "Folder for the results")->required()->take_last();
+    command.add("config", arguments->config, "Config (TOML); without one the paper's case");
+    command.add("--packing", arguments->packing,
+                "Packing to start from, .h5 or .csv; without one it is made");
+    command.add("--realization", arguments->realization,
+                "Which realization of the field, 0 unless given");
+    command.add("--out", arguments->out, "Folder for the results").required().take_last();
     arguments->keeping.add_to(command);
 }
 
