@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "tests/message_of.hpp"
@@ -22,10 +23,11 @@ using Settings = std::vector<std::string>;
 core::FoundCheckpoint checkpoint_of(const Settings& settings) {
     core::FoundCheckpoint found;
     found.file = "run/checkpoint.bin";
-    found.identity = {{"command", "triaxial"},
-                      {"isa", "avx2"},
-                      {"precision", "mixed"},
-                      {"config", write_config(load_config(std::nullopt, settings))}};
+    const nlohmann::json identity = {{"command", "triaxial"},
+                                     {"isa", "avx2"},
+                                     {"precision", "mixed"},
+                                     {"config", write_config(load_config(std::nullopt, settings))}};
+    found.identity = identity.dump();
     return found;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/kernel_choice.hpp"
@@ -57,18 +58,19 @@ nlohmann::json run_identity(const std::string& command, const core::SolverOption
 
 core::SolverOptions resumed_solver(const core::FoundCheckpoint& found, const std::string& command,
                                    core::SolverOptions solver) {
-    if (found.identity.at("command") != command)
+    const auto identity = nlohmann::json::parse(found.identity);
+    if (identity.at("command") != command)
         throw InputError(fmt::format("--resume: {} is a checkpoint of `{}`", found.file.string(),
-                                     found.identity.at("command").get<std::string>()));
+                                     identity.at("command").get<std::string>()));
     // What "auto" meant where the run began.
     if (solver.isa == core::Isa::automatic)
-        solver.isa = core::isa_of(found.identity.at("isa").get<std::string>());
+        solver.isa = core::isa_of(identity.at("isa").get<std::string>());
     return solver;
 }
 
 Config resumed_config(const core::FoundCheckpoint& found, const std::optional<std::string>& file,
                       std::span<const std::string> settings) {
-    const std::string text = found.identity.at("config");
+    const std::string text = nlohmann::json::parse(found.identity).at("config");
     if (file || !settings.empty()) {
         const std::string here = write_config(load_config(file, settings));
         if (here != text)

@@ -2,7 +2,7 @@
 // Runs that outlive what befalls them: checkpoints, --resume, and the state of one that failed.
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/files/json_text.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/kept_run.hpp"
 #include "triaxial/cli/print_row.hpp"
@@ -60,7 +62,8 @@ void run_pack(const PackArguments& arguments, Session& session) {
     if (found) config.solver = resumed_solver(*found, "pack", config.solver);
     nlohmann::json identity = run_identity("pack", config.solver);
     identity["config"] = asked;
-    core::Checkpoint checkpoint(beside(".checkpoint.bin"), identity, arguments.keeping.every);
+    core::Checkpoint checkpoint(beside(".checkpoint.bin"), core::json_text(identity),
+                                arguments.keeping.every);
     if (found) checkpoint.resume(*found);
     KeptRun kept(session.monitor, beside(".failed.h5"), checkpoint);
     const packing::Packing packed = kept.run([&] { return pack(config, kept, &checkpoint); });

@@ -1,8 +1,10 @@
 // `simulate`: any scene of spheres and plane walls.
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/files/checksum.hpp"
+#include "core/files/json_text.hpp"
 #include "core/files/text_file.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/kept_run.hpp"
@@ -50,12 +52,12 @@ void run_simulate(const SimulateArguments& arguments, Session& session) {
     if (found) scene.solver = resumed_solver(*found, "simulate", scene.solver);
     nlohmann::json identity = run_identity("simulate", scene.solver);
     identity["inputs"] = checksum_of_inputs(arguments, scene, session.settings);
-    if (found && found->identity.at("inputs") != identity["inputs"])
+    if (found && nlohmann::json::parse(found->identity).at("inputs") != identity["inputs"])
         throw InputError(
             fmt::format("--resume: {} is of another run: {}, its spheres or --set "
                         "are not what they were",
                         found->file.string(), arguments.scene));
-    core::Checkpoint checkpoint(file, identity, arguments.keeping.every);
+    core::Checkpoint checkpoint(file, core::json_text(identity), arguments.keeping.every);
     if (found) checkpoint.resume(*found);
     KeptRun kept(session.monitor, out / "state.h5", checkpoint);
     const SceneSummary s = kept.run(

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 
@@ -10,6 +11,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/folder.hpp"
+#include "core/files/json_text.hpp"
 #include "core/files/text_file.hpp"
 #include "core/kernel_choice.hpp"
 #include "core/state/part_of.hpp"
@@ -102,7 +104,7 @@ Run prepare_run(const TriaxialArguments& arguments, const fs::path& checkpoint, 
                            : load_config(arguments.config, session.settings);
     run.asked = write_config(run.config);
     if (run.found) {
-        const nlohmann::json& before = run.found->identity;
+        const auto before = nlohmann::json::parse(run.found->identity);
         run.config.solver = resumed_solver(*run.found, "triaxial", run.config.solver);
         const std::string packing = before.at("packing");
         if (arguments.packing.value_or(packing) != packing)
@@ -161,7 +163,8 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
     check_field_data(config);
     const kernels::KernelTable& kernels = core::choose_kernels(config.solver);
     core::create_folder(out);
-    core::Checkpoint checkpoint(checkpoint_file, run.identity, arguments.keeping.every);
+    core::Checkpoint checkpoint(checkpoint_file, core::json_text(run.identity),
+                                arguments.keeping.every);
     if (run.found) checkpoint.resume(*run.found);
     KeptRun kept(session.monitor, out / "state.h5", checkpoint);
 

@@ -69,8 +69,8 @@ CampaignData read_campaign_data(const fs::path& folder) {
         CaseData& made = data.cases.emplace_back();
         index[name] = data.cases.size() - 1;
         made.name = name;
-        made.kernels = one.value("kernels", "");
-        made.config = one.value("config", "");
+        made.kernels = one.optional_text("kernels").value_or("");
+        made.config = one.optional_text("config").value_or("");
         for (const TomlEntry& leaf :
              leaves(parse_toml(made.config, (folder / "campaign.json").string())))
             made.values[leaf.key] = toml_text(leaf.value);
