@@ -117,8 +117,8 @@ TEST_F(Plan, CasesShareTheStartsThatTheyCanShare) {
         "'triaxial.strain_rate' = [0.1, 0.2]\n'packing.seed' = [1, 2]\n");
     std::set<std::string> starts, packings;
     for (const CampaignCase& one : all) {
-        starts.insert(config_hash(start_part(one.config)));
-        packings.insert(config_hash(packing_part(one.config)));
+        starts.insert(start_inputs(one.config).hash);
+        packings.insert(packing_inputs(one.config).hash);
     }
     EXPECT_EQ(starts.size(), 4u);
     EXPECT_EQ(packings.size(), 2u);

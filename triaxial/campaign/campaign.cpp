@@ -43,9 +43,9 @@ std::vector<Row> rows_of(const Work& work, const Row& result,
 /// Runs that share the threads: each takes the next that nobody has taken.
 class Crew {
   public:
-    Crew(CampaignFolder& folder, const std::vector<CampaignCase>& cases, const Starts& starts,
-         std::vector<Work> todo, const std::map<RowPlace, Row>& finished)
-        : folder_(folder), cases_(cases), starts_(starts), todo_(std::move(todo)), needs_(cases) {
+    Crew(CampaignFolder& folder, const Starts& starts, std::vector<Work> todo,
+         const std::map<RowPlace, Row>& finished)
+        : folder_(folder), starts_(starts), todo_(std::move(todo)), needs_(folder.cases()) {
         learn(finished);
     }
 
@@ -89,7 +89,7 @@ class Crew {
         tbb::task_arena arena(threads);
         try {
             while (const Work* work = next(progress)) {
-                const Row first = rows_of(*work, {}, cases_).front();
+                const Row first = rows_of(*work, {}, folder_.cases()).front();
                 const auto state = folder_.path() / CampaignFolder::state_name(first);
                 Row result;
                 arena.execute([&] { result = run_work(*work, starts_, state, stop_); });
@@ -121,7 +121,7 @@ class Crew {
     }
 
     void finish(const Work& work, const Row& result, Progress& progress) {
-        const std::vector<Row> rows = rows_of(work, result, cases_);
+        const std::vector<Row> rows = rows_of(work, result, folder_.cases());
         const std::lock_guard lock(mutex_);
         folder_.append(rows);
         progress.finished(rows);
@@ -135,7 +135,6 @@ class Crew {
     }
 
     CampaignFolder& folder_;
-    const std::vector<CampaignCase>& cases_;
     const Starts& starts_;
     std::vector<Work> todo_;
     Stopping needs_;
@@ -156,7 +155,7 @@ int threads_a_run(std::size_t spheres) {
 
 /// What is left of a plan. Rows whose run another row has already made are taken from it.
 std::vector<Work> left_of(std::vector<Work> plan, const std::map<RowPlace, Row>& finished,
-                          const std::vector<CampaignCase>& cases, CampaignFolder& folder) {
+                          CampaignFolder& folder) {
     std::vector<Work> todo;
     for (Work& work : plan) {
         const auto known = std::find_if(work.rows.begin(), work.rows.end(),
@@ -167,23 +166,23 @@ std::vector<Work> left_of(std::vector<Work> plan, const std::map<RowPlace, Row>&
         }
         const Row result = finished.at(*known);
         std::erase_if(work.rows, [&](const RowPlace& p) { return finished.contains(p); });
-        folder.append(rows_of(work, result, cases));
+        folder.append(rows_of(work, result, folder.cases()));
     }
     return todo;
 }
 
 }  // namespace
 
-CampaignResult run_campaign(CampaignFolder& folder, const std::vector<CampaignCase>& cases,
-                            const CampaignOptions& options, core::Monitor& monitor) {
+CampaignResult run_campaign(CampaignFolder& folder, const CampaignOptions& options,
+                            core::Monitor& monitor) {
     std::vector<Work> todo =
-        left_of(plan_campaign(cases, options.shard), folder.finished(), cases, folder);
-    Starts starts(folder.path(), options.packing);
+        left_of(plan_campaign(folder.cases(), folder.shard()), folder.finished(), folder);
+    Starts starts(folder.path(), folder.packing());
     // In a thread that ends: OpenMP counts its team as long as it lives, and teams that together
     // have more threads than there are cores go to sleep at every barrier.
     std::async(std::launch::async, [&] {
         omp_set_num_threads(options.threads);
-        for (const Work& work : todo) starts.prepare(*work.config, monitor);
+        for (const Work& work : todo) starts.prepare(*work.start, monitor);
     }).get();
 
     const int runs = static_cast<int>(std::min<std::size_t>(todo.size(), 1024));
@@ -192,7 +191,7 @@ CampaignResult run_campaign(CampaignFolder& folder, const std::vector<CampaignCa
     const int threads = std::max(1, options.threads / abreast);
     const std::map<RowPlace, Row> finished = folder.finished();
     Progress progress(finished, todo);
-    Crew crew(folder, cases, starts, std::move(todo), finished);
+    Crew crew(folder, starts, std::move(todo), finished);
     monitor.begin("campaign");
     crew.run(abreast, threads, progress, monitor);
     const CampaignResult result{folder.write_results(), crew.computed()};

@@ -137,10 +137,12 @@ CampaignFolder::CampaignFolder(fs::path path, const std::vector<CampaignCase>& c
                                const std::optional<fs::path>& packing, const Shard& shard)
     : path_(made(std::move(path))),
       cases_(cases),
+      packing_(packing),
+      shard_(shard),
       locks_(claim(path_, shard)),
       journal_(path_ / journal_name(shard)) {
     for (std::size_t c = 0; c < cases.size(); ++c) case_index_[cases[c].name] = c;
-    join(packing);
+    join();
 }
 
 std::vector<FileLock> CampaignFolder::claim(const fs::path& folder, const Shard& shard) {
@@ -168,8 +170,8 @@ FileLock CampaignFolder::writing() const {
     return FileLock::wait_for(path_ / "results.lock", [] {});
 }
 
-void CampaignFolder::join(const std::optional<fs::path>& packing) const {
-    nlohmann::json here = identity_of(cases_, packing);
+void CampaignFolder::join() const {
+    nlohmann::json here = identity_of(cases_, packing_);
     const FileLock lock = writing();
     const fs::path file = path_ / "campaign.json";
     if (fs::exists(file)) {
@@ -193,7 +195,7 @@ void CampaignFolder::join(const std::optional<fs::path>& packing) const {
             path_ / "cases" / (file_name(one.name) + ".toml"),
             fmt::format("# Row K of this case: grainfield triaxial with this file, --packing "
                         "starts/{}.h5 --realization K\n",
-                        config_hash(start_part(one.config))) +
+                        start_inputs(one.config).hash) +
                 case_text(one));
 }
 

@@ -26,11 +26,15 @@ class CampaignFolder {
     /// Takes the folder for one shard, or for all of the campaign. Makes it if it is new; else
     /// checks that it belongs to this campaign: cases may be added and the number of realizations
     /// changed, nothing else. `packing` is the file all runs start from, if one is given.
-    /// InputError: another process works in it, or it belongs to another campaign; FileError.
+    /// `cases` must outlive the folder. InputError: another process works in it, or it belongs to
+    /// another campaign; FileError.
     CampaignFolder(std::filesystem::path path, const std::vector<CampaignCase>& cases,
                    const std::optional<std::filesystem::path>& packing, const Shard& shard);
 
     const std::filesystem::path& path() const { return path_; }
+    const std::vector<CampaignCase>& cases() const { return cases_; }
+    const std::optional<std::filesystem::path>& packing() const { return packing_; }
+    const Shard& shard() const { return shard_; }
     /// Finished rows of this campaign, whichever shard they are from, read anew; only those that
     /// the config asks for (stopping.hpp).
     std::map<RowPlace, Row> finished() const;
@@ -48,10 +52,12 @@ class CampaignFolder {
   private:
     static std::vector<FileLock> claim(const std::filesystem::path& folder, const Shard& shard);
     FileLock writing() const;
-    void join(const std::optional<std::filesystem::path>& packing) const;
+    void join() const;
 
     std::filesystem::path path_;
     const std::vector<CampaignCase>& cases_;
+    std::optional<std::filesystem::path> packing_;
+    Shard shard_;
     std::map<std::string, std::size_t> case_index_;
     std::vector<FileLock> locks_;
     Journal journal_;

@@ -48,10 +48,10 @@ Row run_work(const Work& work, const Starts& starts, const std::filesystem::path
              const std::atomic<bool>& stop) {
     const auto begin = std::chrono::steady_clock::now();
     RunMonitor monitor(stop, failed_state);
-    const Config& config = *work.config;
+    const Config& config = work.inputs->config;
     Row row;
     try {
-        Sample sample = starts.of(config);
+        Sample sample = starts.of(*work.start);
         draw_field(config, work.realization, sample);
         core::Simulation simulation =
             make_simulation(std::move(sample), config, core::choose_kernels(config.solver),

@@ -62,11 +62,7 @@ void print_cases(const std::vector<CampaignCase>& cases, const std::map<RowPlace
 
 void run_montecarlo(const MonteCarloArguments& arguments, Session& session) {
     const std::vector<CampaignCase> cases = load_campaign(arguments.config, session.settings);
-    CampaignOptions options;
-    options.shard = parse_shard(arguments.shard);
-    options.threads = session.threads;
-    options.abreast = arguments.abreast;
-    if (arguments.packing) options.packing = *arguments.packing;
+    const Shard shard = parse_shard(arguments.shard);
     for (const CampaignCase& one : cases) check_field_data(one.config);
     for (const CampaignCase& one : cases)
         if (one.config.field.variable == randomfield::Variable::none &&
@@ -74,14 +70,15 @@ void run_montecarlo(const MonteCarloArguments& arguments, Session& session) {
             session.monitor.note(fmt::format(
                 "case \"{}\": field.variable is \"none\": all of its realizations are the same run",
                 one.name));
-    CampaignFolder folder(arguments.out, cases, options.packing, options.shard);
+    CampaignFolder folder(arguments.out, cases, arguments.packing, shard);
     if (!arguments.merge.empty()) {
         std::size_t taken = 0;
         for (const std::string& other : arguments.merge) taken += folder.take_over(other);
         print_row("rows taken over", fmt::format("{}", taken));
         print_cases(cases, folder.write_results());
     } else {
-        const CampaignResult result = run_campaign(folder, cases, options, session.monitor);
+        const CampaignResult result =
+            run_campaign(folder, {session.threads, arguments.abreast}, session.monitor);
         print_row("rows computed", fmt::format("{}", result.computed));
         print_cases(cases, result.rows);
     }

@@ -9,7 +9,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -80,8 +79,6 @@ Slot slot_or_auto(std::optional<double>& target, const Range& allowed);  ///< un
 Slot text_slot(std::string& target, std::string expected);               ///< any but empty text
 /// Any but empty text in a file; unset where the target is empty.
 Slot optional_text_slot(std::string& target, std::string expected);
-/// One of some texts; `texts` must outlive the slot.
-Slot slot(std::string& target, std::span<const std::string_view> texts);
 /// What the two templates below have in common. set gets a value in range; get: null, nullopt:
 /// unset.
 Slot whole_slot(const WholeRange& allowed, std::function<void(std::int64_t)> set,
