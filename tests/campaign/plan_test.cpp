@@ -84,8 +84,8 @@ TEST_F(Plan, ShardsShareEveryRowOut) {
     for (const std::int32_t shards : {1, 2, 5, 9}) {
         std::multiset<RowPlace> rows;
         for (std::int32_t shard = 1; shard <= shards; ++shard)
-            for (const Work& work : plan_campaign(all, {shard, shards}))
-                rows.insert(work.rows.begin(), work.rows.end());
+            for (const Job& job : plan_campaign(all, {shard, shards}))
+                rows.insert(job.rows.begin(), job.rows.end());
         EXPECT_EQ(rows.size(), 3u * 8u);
         for (std::size_t c = 0; c < 3; ++c)
             for (std::int64_t k = deterministic_run; k < 7; ++k)

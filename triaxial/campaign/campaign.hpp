@@ -1,9 +1,9 @@
 #pragma once
 // Runs a campaign: all of its realizations, side by side, whatever happens. A case goes one way:
 //   campaign.toml -> cases  config/load_config: names and whole configs
-//   cases -> plan           plan: runs, the rows that each fills, what it and its start depend on
-//   plan -> starts          starts: the samples that runs share, each made once
-//   runs -> rows            run_work: one result a run, for its rows, into the journal
+//   cases -> jobs           plan: a run each, with the rows it fills and what it is made from
+//   jobs -> starts          starts: the samples that runs share, each made once
+//   jobs -> rows            run_job: one result each, for all of its rows, into the journal
 //   rows -> files           campaign_folder: results.csv and the others, from all journals
 
 #include <cstdint>

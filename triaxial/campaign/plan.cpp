@@ -9,7 +9,7 @@
 
 namespace grainfield::triaxial {
 
-std::vector<Work> plan_campaign(const std::vector<CampaignCase>& cases, const Shard& shard) {
+std::vector<Job> plan_campaign(const std::vector<CampaignCase>& cases, const Shard& shard) {
     const auto shared = [](Inputs inputs) {
         return std::make_shared<const Inputs>(std::move(inputs));
     };
@@ -21,7 +21,7 @@ std::vector<Work> plan_campaign(const std::vector<CampaignCase>& cases, const Sh
         starts.push_back(shared(start_inputs(one.config)));
         most = std::max<std::int64_t>(most, one.config.montecarlo.realizations);
     }
-    std::vector<Work> plan;
+    std::vector<Job> plan;
     std::map<std::pair<std::string, std::int64_t>, std::size_t> known;
     const auto add = [&](std::size_t c, std::int64_t realization) {
         const auto& run = (realization == deterministic_run ? deterministic : random)[c];

@@ -24,9 +24,9 @@ struct RowPlace {
     auto operator<=>(const RowPlace&) const = default;
 };
 
-/// One run and the rows that it fills: runs without a random field are the same for all
+/// A job: one run and the rows that it fills. Runs without a random field are the same for all
 /// realizations and for all cases that differ in their fields only.
-struct Work {
+struct Job {
     std::shared_ptr<const Inputs> inputs;
     std::shared_ptr<const Inputs> start;  ///< those of its start
     std::int64_t realization = 0;         ///< of the field [-]
@@ -35,6 +35,6 @@ struct Work {
 
 /// All runs of a shard, realization by realization, so that every case grows alike; deterministic
 /// runs, if the campaign wants them, come first and belong to the first shard.
-std::vector<Work> plan_campaign(const std::vector<CampaignCase>& cases, const Shard& shard);
+std::vector<Job> plan_campaign(const std::vector<CampaignCase>& cases, const Shard& shard);
 
 }  // namespace grainfield::triaxial
