@@ -40,36 +40,36 @@ std::vector<Row> rows_of(const Job& job, const Row& result,
     return rows;
 }
 
-/// Runs that share the threads: each takes the next that nobody has taken.
-class Crew {
+/// Workers that share the threads: each takes the next job that nobody has taken.
+class WorkerPool {
   public:
-    Crew(CampaignFolder& folder, const Starts& starts, std::vector<Job> todo,
-         const std::map<RowPlace, Row>& finished)
-        : folder_(folder), starts_(starts), todo_(std::move(todo)), needs_(folder.cases()) {
+    WorkerPool(CampaignFolder& folder, const Starts& starts, std::vector<Job> todo,
+               const std::map<RowPlace, Row>& finished)
+        : folder_(folder), starts_(starts), todo_(std::move(todo)), stopping_(folder.cases()) {
         learn(finished);
     }
 
     /// Works until all is done, something broke, or the monitor asks to stop.
     void run(int abreast, int threads, Progress& progress, core::Monitor& monitor) {
-        std::vector<std::jthread> members;
+        std::vector<std::jthread> workers;
         working_ = abreast;
-        for (int m = 0; m < abreast; ++m)
-            members.emplace_back([this, threads, &progress] { member(threads, progress); });
+        for (int w = 0; w < abreast; ++w)
+            workers.emplace_back([this, threads, &progress] { work(threads, progress); });
         try {
-            look_after(progress, monitor);
-        } catch (...) {  // or the members would work on to the end
+            supervise(progress, monitor);
+        } catch (...) {  // or the workers would go on to the end
             stop_ = true;
             throw;
         }
-        members.clear();
+        workers.clear();
         if (error_) std::rethrow_exception(error_);
     }
     bool stopped() const { return stop_; }
     std::size_t computed() const { return computed_; }
 
   private:
-    /// Until all members have ended: shows progress, writes results now and then.
-    void look_after(Progress& progress, core::Monitor& monitor) {
+    /// Until all workers have ended: shows progress, writes results now and then.
+    void supervise(Progress& progress, core::Monitor& monitor) {
         auto written = Clock::now();
         std::unique_lock lock(mutex_);
         while (!changed_.wait_for(lock, look_interval, [this] { return working_ == 0; })) {
@@ -84,7 +84,8 @@ class Crew {
         }
     }
 
-    void member(int threads, Progress& progress) {
+    /// One worker, on so many threads.
+    void work(int threads, Progress& progress) {
         omp_set_num_threads(threads);
         tbb::task_arena arena(threads);
         try {
@@ -110,7 +111,8 @@ class Crew {
         const std::lock_guard lock(mutex_);
         while (!stop_ && taken_ < todo_.size()) {
             const Job& job = todo_[taken_++];
-            if (std::ranges::any_of(job.rows, [&](const RowPlace& p) { return needs_.wants(p); })) {
+            if (std::ranges::any_of(job.rows,
+                                    [&](const RowPlace& p) { return stopping_.wants(p); })) {
                 progress.started();
                 return &job;
             }
@@ -125,20 +127,20 @@ class Crew {
         folder_.append(rows);
         progress.finished(rows);
         computed_ += rows.size();
-        for (std::size_t r = 0; r < rows.size(); ++r) needs_.add(job.rows[r], rows[r]);
+        for (std::size_t r = 0; r < rows.size(); ++r) stopping_.add(job.rows[r], rows[r]);
     }
 
     /// What other shards have found out counts, too.
     void learn(const std::map<RowPlace, Row>& finished) {
-        for (const auto& [place, row] : finished) needs_.add(place, row);
+        for (const auto& [place, row] : finished) stopping_.add(place, row);
     }
 
     CampaignFolder& folder_;
     const Starts& starts_;
     std::vector<Job> todo_;
-    Stopping needs_;
+    Stopping stopping_;
     std::size_t taken_ = 0, computed_ = 0;
-    int working_ = 0;
+    int working_ = 0;  // workers
     std::atomic<bool> stop_ = false;
     std::exception_ptr error_;
     std::mutex mutex_;
@@ -190,11 +192,11 @@ CampaignResult run_campaign(CampaignFolder& folder, const CampaignOptions& optio
     const int threads = std::max(1, options.threads / abreast);
     const std::map<RowPlace, Row> finished = folder.finished();
     Progress progress(finished, todo);
-    Crew crew(folder, starts, std::move(todo), finished);
+    WorkerPool pool(folder, starts, std::move(todo), finished);
     monitor.begin("campaign");
-    crew.run(abreast, threads, progress, monitor);
-    const CampaignResult result{folder.write_results(), crew.computed()};
-    if (crew.stopped())
+    pool.run(abreast, threads, progress, monitor);
+    const CampaignResult result{folder.write_results(), pool.computed()};
+    if (pool.stopped())
         throw Interrupted(fmt::format("stopped by the user; {}; the same command goes on from here",
                                       progress.counts()));
     return result;
