@@ -7,8 +7,8 @@
 
 #include "core/files/json_text.hpp"
 #include "triaxial/cli/commands.hpp"
-#include "triaxial/cli/kept_run.hpp"
 #include "triaxial/cli/print_row.hpp"
+#include "triaxial/cli/resumable_run.hpp"
 #include "triaxial/config/load_config.hpp"
 #include "triaxial/config/write_config.hpp"
 #include "triaxial/realization/packing_files.hpp"
@@ -19,7 +19,7 @@ namespace {
 struct PackArguments {
     std::optional<std::string> config;
     std::string out;
-    KeepingArguments keeping;
+    CheckpointArguments checkpoints;
 };
 
 void print_packing(const packing::Packing& p) {
@@ -55,7 +55,7 @@ void run_pack(const PackArguments& arguments, Session& session) {
     const auto beside = [&](const char* suffix) {
         return std::filesystem::path(arguments.out).replace_extension(suffix);
     };
-    const auto found = arguments.keeping.find(beside(".checkpoint.bin"), session.monitor);
+    const auto found = arguments.checkpoints.find(beside(".checkpoint.bin"), session.monitor);
     Config config = found ? resumed_config(*found, arguments.config, session.settings)
                           : load_config(arguments.config, session.settings);
     const std::string asked = write_config(config);
@@ -63,10 +63,11 @@ void run_pack(const PackArguments& arguments, Session& session) {
     nlohmann::json identity = run_identity("pack", config.solver);
     identity["config"] = asked;
     core::Checkpoint checkpoint(beside(".checkpoint.bin"), core::json_text(identity),
-                                arguments.keeping.every);
+                                arguments.checkpoints.every);
     if (found) checkpoint.resume(*found);
-    KeptRun kept(session.monitor, beside(".failed.h5"), checkpoint);
-    const packing::Packing packed = kept.run([&] { return pack(config, kept, &checkpoint); });
+    ResumableRun resumable(session.monitor, beside(".failed.h5"), checkpoint);
+    const packing::Packing packed =
+        resumable.run([&] { return pack(config, resumable, &checkpoint); });
     write_packing(arguments.out, packed, packed.seconds());
     checkpoint.remove();
     print_packing(packed);
@@ -87,7 +88,7 @@ void add_pack_command(CommandLine& line) {
     command.add("config", arguments->config, "Config (TOML); without one the paper's case");
     command.add("--out", arguments->out, "File to write: .h5 (ParaView), .csv, .data or .txt")
         .required();
-    arguments->keeping.add_to(command);
+    arguments->checkpoints.add_to(command);
 }
 
 }  // namespace grainfield::triaxial

@@ -16,8 +16,8 @@
 #include "core/kernel_choice.hpp"
 #include "core/state/part_of.hpp"
 #include "triaxial/cli/commands.hpp"
-#include "triaxial/cli/kept_run.hpp"
 #include "triaxial/cli/print_row.hpp"
+#include "triaxial/cli/resumable_run.hpp"
 #include "triaxial/config/load_config.hpp"
 #include "triaxial/config/write_config.hpp"
 #include "triaxial/realization/packing_files.hpp"
@@ -35,7 +35,7 @@ struct TriaxialArguments {
     std::optional<std::string> packing;
     std::optional<std::int64_t> realization;
     std::string out;
-    KeepingArguments keeping;
+    CheckpointArguments checkpoints;
 };
 
 /// The sample from a file; packing.json follows it into the run's folder where it exists.
@@ -94,7 +94,7 @@ struct Run {
 /// What was asked for, completed by the checkpoint where the run resumes.
 Run prepare_run(const TriaxialArguments& arguments, const fs::path& checkpoint, Session& session) {
     Run run;
-    run.found = arguments.keeping.find(checkpoint, session.monitor);
+    run.found = arguments.checkpoints.find(checkpoint, session.monitor);
     run.packing = arguments.packing;
     run.realization = arguments.realization.value_or(0);
     if (run.realization < 0)
@@ -164,16 +164,16 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
     const kernels::KernelTable& kernels = core::choose_kernels(config.solver);
     core::create_folder(out);
     core::Checkpoint checkpoint(checkpoint_file, core::json_text(run.identity),
-                                arguments.keeping.every);
+                                arguments.checkpoints.every);
     if (run.found) checkpoint.resume(*run.found);
-    KeptRun kept(session.monitor, out / "state.h5", checkpoint);
+    ResumableRun resumable(session.monitor, out / "state.h5", checkpoint);
 
     Before before;
     const auto part = core::part_of(&checkpoint, "run", [&](auto& archive) { archive(before); });
     core::Simulation simulation =
-        kept.run([&] { return begin_test(run, before, kernels, out, kept, checkpoint); });
+        resumable.run([&] { return begin_test(run, before, kernels, out, resumable, checkpoint); });
     const TestResult result =
-        kept.run([&] { return run_test(simulation, config, kept, &checkpoint); });
+        resumable.run([&] { return run_test(simulation, config, resumable, &checkpoint); });
     const RunTimes& times = before.times;
     const FieldRecord& field = before.field;
     core::write_file_atomically(out / "config.toml", run.asked);
@@ -219,7 +219,7 @@ void add_triaxial_command(CommandLine& line) {
     command.add("--realization", arguments->realization,
                 "Which realization of the field, 0 unless given");
     command.add("--out", arguments->out, "Folder for the results").required().take_last();
-    arguments->keeping.add_to(command);
+    arguments->checkpoints.add_to(command);
 }
 
 }  // namespace grainfield::triaxial

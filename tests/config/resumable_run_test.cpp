@@ -1,6 +1,6 @@
 // Going on from a checkpoint: with its config and kernels, or a message that says what differs.
 
-#include "triaxial/cli/kept_run.hpp"
+#include "triaxial/cli/resumable_run.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

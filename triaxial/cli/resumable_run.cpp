@@ -1,4 +1,4 @@
-#include "triaxial/cli/kept_run.hpp"
+#include "triaxial/cli/resumable_run.hpp"
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ std::string first_difference(const std::string& here, const std::string& there) 
 
 }  // namespace
 
-void KeepingArguments::add_to(ArgumentParser& command) {
+void CheckpointArguments::add_to(ArgumentParser& command) {
     command.add_flag("--resume", resume,
                      "Go on from the checkpoint that an interrupted run left; ends with the same "
                      "bits as if it had not been interrupted");
@@ -38,8 +38,8 @@ void KeepingArguments::add_to(ArgumentParser& command) {
         .range(0.0, 1e9);
 }
 
-std::optional<core::FoundCheckpoint> KeepingArguments::find(const std::filesystem::path& file,
-                                                            core::Monitor& monitor) const {
+std::optional<core::FoundCheckpoint> CheckpointArguments::find(const std::filesystem::path& file,
+                                                               core::Monitor& monitor) const {
     if (!resume) return std::nullopt;
     std::optional<core::FoundCheckpoint> found = core::find_checkpoint(file);
     if (!found) {
@@ -82,20 +82,20 @@ Config resumed_config(const core::FoundCheckpoint& found, const std::optional<st
     return parse_config(text, found.file.string());
 }
 
-void KeptRun::ended_early(const core::Simulation& simulation) {
+void ResumableRun::ended_early(const core::Simulation& simulation) {
     write_state(state_, simulation);
-    kept_ = true;
+    state_written_ = true;
 }
 
-std::string KeptRun::failure_text() const {
+std::string ResumableRun::failure_text() const {
     std::string text;
-    if (kept_) text = fmt::format("; the state is in {}", state_.string());
+    if (state_written_) text = fmt::format("; the state is in {}", state_.string());
     if (std::filesystem::exists(checkpoint_.file()))
         text += fmt::format("; the last checkpoint is {}", checkpoint_.file().string());
     return text;
 }
 
-std::string KeptRun::interruption_text() const {
+std::string ResumableRun::interruption_text() const {
     return fmt::format("; the checkpoint is {}: the same command with --resume goes on from it",
                        checkpoint_.file().string());
 }
