@@ -216,7 +216,7 @@ std::map<RowPlace, Row> CampaignFolder::finished() const {
     return rows;
 }
 
-std::size_t CampaignFolder::take_over(const fs::path& other) {
+std::size_t CampaignFolder::merge(const fs::path& other) {
     compare(read_json(other / "campaign.json"), read_json(path_ / "campaign.json"), other);
     std::vector<Row> there = read_journals(other), mine = read_journals(path_), missing;
     std::sort(mine.begin(), mine.end(), row_before);

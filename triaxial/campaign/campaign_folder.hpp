@@ -42,7 +42,7 @@ class CampaignFolder {
     void append(std::span<const Row> rows) { journal_.append(rows); }
     /// Takes the rows of another folder of the same campaign over. Returns how many were new.
     /// InputError: it belongs to another campaign.
-    std::size_t take_over(const std::filesystem::path& other);
+    std::size_t merge(const std::filesystem::path& other);
     /// Writes results.csv, deterministic.csv and failures.csv from all journals. Returns
     /// finished().
     std::map<RowPlace, Row> write_results() const;

@@ -73,7 +73,7 @@ void run_montecarlo(const MonteCarloArguments& arguments, Session& session) {
     CampaignFolder folder(arguments.out, cases, arguments.packing, shard);
     if (!arguments.merge.empty()) {
         std::size_t taken = 0;
-        for (const std::string& other : arguments.merge) taken += folder.take_over(other);
+        for (const std::string& other : arguments.merge) taken += folder.merge(other);
         print_row("rows taken over", fmt::format("{}", taken));
         print_cases(cases, folder.write_results());
     } else {
