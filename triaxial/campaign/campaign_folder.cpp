@@ -139,13 +139,13 @@ CampaignFolder::CampaignFolder(fs::path path, const std::vector<CampaignCase>& c
       cases_(cases),
       packing_(packing),
       shard_(shard),
-      locks_(claim(path_, shard)),
+      locks_(lock_shard(path_, shard)),
       journal_(path_ / journal_name(shard)) {
     for (std::size_t c = 0; c < cases.size(); ++c) case_index_[cases[c].name] = c;
-    join();
+    check_identity();
 }
 
-std::vector<FileLock> CampaignFolder::claim(const fs::path& folder, const Shard& shard) {
+std::vector<FileLock> CampaignFolder::lock_shard(const fs::path& folder, const Shard& shard) {
     std::vector<FileLock> locks;
     const auto take = [&](const fs::path& file, FileLock::Kind kind) {
         auto lock = FileLock::try_lock(file, kind);
@@ -166,13 +166,13 @@ std::vector<FileLock> CampaignFolder::claim(const fs::path& folder, const Shard&
 }
 
 /// Only one process at a time writes what the shards have in common.
-FileLock CampaignFolder::writing() const {
+FileLock CampaignFolder::lock_results() const {
     return FileLock::wait_for(path_ / "results.lock", [] {});
 }
 
-void CampaignFolder::join() const {
+void CampaignFolder::check_identity() const {
     nlohmann::json here = identity_of(cases_, packing_);
-    const FileLock lock = writing();
+    const FileLock lock = lock_results();
     const fs::path file = path_ / "campaign.json";
     if (fs::exists(file)) {
         const nlohmann::json there = read_json(file);
@@ -243,7 +243,7 @@ fs::path CampaignFolder::state_name(const Row& row) {
 }
 
 std::map<RowPlace, Row> CampaignFolder::write_results() const {
-    const FileLock lock = writing();
+    const FileLock lock = lock_results();
     std::map<RowPlace, Row> all = finished();
     std::vector<Row> rows, deterministic;
     std::string failures = "case,realization,reason,state\n";

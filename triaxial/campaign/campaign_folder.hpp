@@ -1,12 +1,13 @@
 #pragma once
 // The folder of a campaign: who works in it, what belongs to it, and its results.
 //
-//   campaign.json       every case with its whole config and kernels; the machines that worked on
-//   it cases/NAME.toml     the same for `grainfield triaxial`
-//   *.journal           finished rows, one file a shard (journal.hpp)
-//   results.csv         all of them, sorted; deterministic.csv: those of deterministic runs
-//   failures.csv        case, realization, reason and state of runs that failed; failed/: the
-//   states packings/, starts/  samples (starts.hpp)
+//   campaign.json          every case with its whole config and kernels; machines that worked on it
+//   cases/NAME.toml        the same for `grainfield triaxial`
+//   *.journal              finished rows, one file a shard (journal.hpp)
+//   results.csv            all of them, sorted
+//   deterministic.csv      those of deterministic runs
+//   failures.csv, failed/  case, realization, reason of runs that failed; their states
+//   packings/, starts/     samples that runs start from (starts.hpp)
 
 #include <filesystem>
 #include <map>
@@ -50,9 +51,11 @@ class CampaignFolder {
     static std::filesystem::path state_name(const Row& row);
 
   private:
-    static std::vector<FileLock> claim(const std::filesystem::path& folder, const Shard& shard);
-    FileLock writing() const;
-    void join() const;
+    static std::vector<FileLock> lock_shard(const std::filesystem::path& folder,
+                                            const Shard& shard);
+    FileLock lock_results() const;
+    /// Throws if the folder is another campaign's; else writes campaign.json and cases/.
+    void check_identity() const;
 
     std::filesystem::path path_;
     const std::vector<CampaignCase>& cases_;
