@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -22,6 +21,7 @@
 #include "bench/machine.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/kernel_choice.hpp"
+#include "triaxial/cli/argument_parser.hpp"
 #include "triaxial/cli/terminal_monitor.hpp"
 
 namespace {
@@ -222,29 +222,33 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Run time against error, over precision, step, mass scaling and strain rate.");
+    triaxial::ArgumentParser parser(
+        "Run time against error, over precision, step, mass scaling and strain rate.");
     Arguments arguments;
-    app.add_option("--out", arguments.out,
-                   "Folder for CSV files and picture (bench/results; build/bench with --quick)");
-    app.add_option("--sample", arguments.sample,
-                   "The packing (.h5); made if it is not there, which takes a minute or two")
-        ->capture_default_str();
-    app.add_option("--repeats", arguments.repeats, "Disturbed runs of each setting")
-        ->check(CLI::Range(1, 100))
-        ->capture_default_str();
-    app.add_option("--reference-repeats", arguments.reference_repeats,
-                   "Disturbed runs of the reference: its mean and the noise floor")
-        ->check(CLI::Range(2, 100))
-        ->capture_default_str();
-    app.add_option("--workers", arguments.workers, "Runs at a time, one thread each")
-        ->check(CLI::Range(1, 1024))
-        ->capture_default_str();
-    app.add_option("--precision", arguments.precision,
-                   "Nothing but so many disturbed runs in mixed and as many in double precision, "
-                   "with the difference of their means")
-        ->check(CLI::Range(2, 1000));
-    app.add_flag("--quick", arguments.quick, "A smoke test: few settings, little strain");
-    CLI11_PARSE(app, argc, argv);
+    parser.add("--out", arguments.out,
+               "Folder for CSV files and picture (bench/results; build/bench with --quick)");
+    parser
+        .add("--sample", arguments.sample,
+             "The packing (.h5); made if it is not there, which takes a minute or two")
+        .show_default();
+    parser.add("--repeats", arguments.repeats, "Disturbed runs of each setting")
+        .range(1, 100)
+        .show_default();
+    parser
+        .add("--reference-repeats", arguments.reference_repeats,
+             "Disturbed runs of the reference: its mean and the noise floor")
+        .range(2, 100)
+        .show_default();
+    parser.add("--workers", arguments.workers, "Runs at a time, one thread each")
+        .range(1, 1024)
+        .show_default();
+    parser
+        .add("--precision", arguments.precision,
+             "Nothing but so many disturbed runs in mixed and as many in double precision, "
+             "with the difference of their means")
+        .range(2, 1000);
+    parser.add_flag("--quick", arguments.quick, "A smoke test: few settings, little strain");
+    if (const auto code = parser.parse_or_print(argc, argv)) return *code;
     try {
         run(arguments);
     } catch (const std::exception& error) {

@@ -7,7 +7,6 @@
 #include <omp.h>
 #include <time.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -25,6 +24,7 @@
 #include "randomfield/covariance/covariance.hpp"
 #include "randomfield/generators/generator.hpp"
 #include "randomfield/verification/field_error.hpp"
+#include "triaxial/cli/argument_parser.hpp"
 
 namespace {
 
@@ -197,14 +197,14 @@ std::string default_folder() {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app(
+    triaxial::ArgumentParser parser(
         "Random fields: time against covariance error, on one thread; the largest ones on all "
         "cores too.");
     std::filesystem::path out = default_folder();
     bool quick = false;
-    app.add_option("--out", out, "Folder for the results, " + out.string() + " unless given");
-    app.add_flag("--quick", quick, "The blocks only, and less often");
-    CLI11_PARSE(app, argc, argv);
+    parser.add("--out", out, "Folder for the results, " + out.string() + " unless given");
+    parser.add_flag("--quick", quick, "The blocks only, and less often");
+    if (const auto code = parser.parse_or_print(argc, argv)) return *code;
     omp_set_num_threads(1);
     try {
         std::vector<bench::FieldPoint> points;

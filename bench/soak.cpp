@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -20,6 +19,7 @@
 #include "core/drive/step_control.hpp"
 #include "core/files/atomic_file.hpp"
 #include "packing/isotropic.hpp"
+#include "triaxial/cli/argument_parser.hpp"
 
 namespace grainfield::bench {
 namespace {
@@ -86,14 +86,13 @@ std::string soak(const core::Simulation& still, const NamedKernels& kernels, boo
 
 int main(int argc, char** argv) {
     using namespace grainfield;
-    CLI::App app("A million steps of a resting and of a slowly cycled sample.");
+    triaxial::ArgumentParser parser("A million steps of a resting and of a slowly cycled sample.");
     std::filesystem::path sample = "build/bench/blocks-1x1x1-100kPa.h5", out = "build/soak.csv";
     std::int64_t steps = 1'000'000;
-    app.add_option("--sample", sample, "The sample (.h5); made if not there")
-        ->capture_default_str();
-    app.add_option("--out", out, "The CSV")->capture_default_str();
-    app.add_option("--steps", steps, "Of each run")->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
+    parser.add("--sample", sample, "The sample (.h5); made if not there").show_default();
+    parser.add("--out", out, "The CSV").show_default();
+    parser.add("--steps", steps, "Of each run").show_default();
+    if (const auto code = parser.parse_or_print(argc, argv)) return *code;
     try {
         const core::Simulation still = bench::settled(bench::stressed_sample(sample, {1, 1, 1}));
         std::string csv =

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <filesystem>
 #include <string>
@@ -10,6 +9,7 @@
 #include "bench/machine.hpp"
 #include "bench/stability.hpp"
 #include "bench/stressed_sample.hpp"
+#include "triaxial/cli/argument_parser.hpp"
 
 namespace {
 
@@ -28,17 +28,18 @@ const std::array<Part, 5> parts = {{{"step", bench::largest_stable_step},
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Largest stable step, overlaps at the start, long rest, and strain rates.");
+    triaxial::ArgumentParser parser(
+        "Largest stable step, overlaps at the start, long rest, and strain rates.");
     std::filesystem::path out = "bench/results", samples = "build/bench";
     std::string only;
     bench::StabilityRun run;
-    app.add_option("--out", out, "Folder for the results")->capture_default_str();
-    app.add_option("--sample", samples, "Folder of the two samples (.h5); made if not there")
-        ->capture_default_str();
-    app.add_option("--only", only, "One part: step, overlap, collisions, rest or rate")
-        ->check(CLI::IsMember({"step", "overlap", "collisions", "rest", "rate"}));
-    app.add_flag("--quick", run.quick, "A smoke test: few cases, few steps");
-    CLI11_PARSE(app, argc, argv);
+    parser.add("--out", out, "Folder for the results").show_default();
+    parser.add("--sample", samples, "Folder of the two samples (.h5); made if not there")
+        .show_default();
+    parser.add("--only", only, "One part: step, overlap, collisions, rest or rate")
+        .one_of({"step", "overlap", "collisions", "rest", "rate"});
+    parser.add_flag("--quick", run.quick, "A smoke test: few cases, few steps");
+    if (const auto code = parser.parse_or_print(argc, argv)) return *code;
     try {
         run.small = bench::stressed_sample(samples / "blocks-1x1x1-100kPa.h5", {1, 1, 1});
         run.large = bench::stressed_sample(samples / "blocks-2x4x2-100kPa.h5", {2, 4, 2});

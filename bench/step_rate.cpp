@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <omp.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -22,6 +21,7 @@
 #include "core/simulation.hpp"
 #include "kernels/vector/vector_tables.hpp"
 #include "packing/isotropic.hpp"
+#include "triaxial/cli/argument_parser.hpp"
 
 namespace {
 
@@ -216,21 +216,21 @@ void sizes(const core::Scene& full, const std::filesystem::path& out, int rounds
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Step rates of whole steps in shear.");
+    triaxial::ArgumentParser parser("Step rates of whole steps in shear.");
     std::filesystem::path out = "bench/results", sample = "build/bench/full-100kPa.h5";
     int rounds = 9;
     bool large = false, quick = false;
-    app.add_option("--out", out, "Folder for the CSV files")->capture_default_str();
-    app.add_option("--sample", sample, "The full sample at 100 kPa (.h5); made if it is not there")
-        ->capture_default_str();
-    app.add_option("--rounds", rounds, "Rounds of 50 steps; medians are taken over them")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
-    app.add_option("--step", step, "Time step [s]")->capture_default_str();
-    app.add_flag("--quick", quick,
-                 "Only the default kernels at rest; prints one line, writes nothing");
-    app.add_flag("--sizes", large, "Also other sizes, up to 1.2 million spheres");
-    CLI11_PARSE(app, argc, argv);
+    parser.add("--out", out, "Folder for the CSV files").show_default();
+    parser.add("--sample", sample, "The full sample at 100 kPa (.h5); made if it is not there")
+        .show_default();
+    parser.add("--rounds", rounds, "Rounds of 50 steps; medians are taken over them")
+        .range(1, 1000)
+        .show_default();
+    parser.add("--step", step, "Time step [s]").show_default();
+    parser.add_flag("--quick", quick,
+                    "Only the default kernels at rest; prints one line, writes nothing");
+    parser.add_flag("--sizes", large, "Also other sizes, up to 1.2 million spheres");
+    if (const auto code = parser.parse_or_print(argc, argv)) return *code;
     try {
         if (quick) {
             at_rest(bench::full_sample(sample));

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <ctime>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include "bench/stressed_sample.hpp"
 #include "core/drive/driver.hpp"
 #include "core/kernel_choice.hpp"
+#include "triaxial/cli/argument_parser.hpp"
 
 namespace grainfield::bench {
 namespace {
@@ -53,11 +53,12 @@ void measure(const core::Scene& scene, int rounds) {
 
 int main(int argc, char** argv) {
     using namespace grainfield;
-    CLI::App app("The price of the watch over a run: spheres, ms a step, ms a look, per cent.");
+    triaxial::ArgumentParser parser(
+        "The price of the watch over a run: spheres, ms a step, ms a look, per cent.");
     std::filesystem::path samples = "build/bench";
-    app.add_option("--sample", samples, "Folder of the samples (.h5); made if not there")
-        ->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
+    parser.add("--sample", samples, "Folder of the samples (.h5); made if not there")
+        .show_default();
+    if (const auto code = parser.parse_or_print(argc, argv)) return *code;
     try {
         const std::filesystem::path full = samples / "full-100kPa.h5";
         bench::measure(bench::stressed_sample(samples / "blocks-1x1x1-100kPa.h5", {1, 1, 1}), 300);

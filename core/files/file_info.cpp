@@ -61,7 +61,7 @@ std::string columns_text(const SphereFile& file) {
 }
 
 /// One line a key; what is nested is only counted.
-std::string json_text(const nlohmann::json& json) {
+std::string json_lines(const nlohmann::json& json) {
     if (!json.is_object())
         return fmt::format("  {} of {} entries\n", json.type_name(), json.size());
     std::string text;
@@ -90,7 +90,8 @@ std::string describe_spheres(const SphereFile& file) {
     text += columns_text(file);
     for (const auto& [name, array] : file.extra)
         text += fmt::format("extra: {}, {} values\n", name, array.values.size());
-    if (!file.attributes.empty()) text += "attributes:\n" + json_text(file.attributes);
+    if (!file.attributes.empty())
+        text += "attributes:\n" + json_lines(nlohmann::json::parse(file.attributes));
     return text;
 }
 
@@ -111,7 +112,7 @@ std::string describe_csv(std::string_view text, const fs::path& path) {
 std::string describe_json(std::string_view text, const fs::path& path) {
     try {
         const nlohmann::json json = nlohmann::json::parse(text);
-        return fmt::format("JSON: {} keys\n", json.size()) + json_text(json);
+        return fmt::format("JSON: {} keys\n", json.size()) + json_lines(json);
     } catch (const nlohmann::json::exception& error) {
         throw FileError(fmt::format("{}: {}", path.string(), error.what()));
     }
@@ -137,7 +138,8 @@ std::string describe_toml(std::string_view text, const fs::path&) {
 std::string describe_checkpoint(std::string_view, const fs::path& path) {
     const FoundCheckpoint found = open_checkpoint(path);
     std::string info = "checkpoint, whole; --resume goes on from it\n";
-    for (const auto& [key, value] : found.identity.items())
+    const auto identity = nlohmann::json::parse(found.identity);
+    for (const auto& [key, value] : identity.items())
         if (key != "config") info += fmt::format("  {}: {}\n", key, value.dump());
     return info;
 }

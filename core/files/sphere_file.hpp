@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,8 +32,8 @@ struct SphereFile {
     bool has_block = false;             ///< every sphere knows its block
 
     // Only .h5 keeps the following.
-    std::string kind;  ///< what made it: "packing", "state", ...
-    nlohmann::json attributes = nlohmann::json::object();
+    std::string kind;        ///< what made it: "packing", "state", ...
+    std::string attributes;  ///< a JSON object as text (json_text.hpp); empty: none
     std::map<std::string, ExtraArray> extra;
     std::string producer;  ///< program and version; empty: this one
 

@@ -7,9 +7,11 @@
 #include <numeric>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/files/hdf5_reader.hpp"
 #include "core/files/hdf5_writer.hpp"
+#include "core/files/json_text.hpp"
 #include "core/files/sphere_formats.hpp"
 
 #ifndef GRAINFIELD_VERSION
@@ -85,18 +87,13 @@ void write_columns(Hdf5Writer& writer, const ParticleStore& s) {
     writer.dataset<std::int32_t>(point_data + "/block", {n, 3}, std::span(first, 3 * n));
 }
 
-/// Paths in attributes may be in any encoding; that is no reason to lose a state.
-std::string json_text(const nlohmann::json& json) {
-    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 void write_ours(Hdf5Writer& writer, const SphereFile& file) {
     writer.group(ours);
     writer.attribute(ours, "format_version", std::span(&format_version, 1));
     writer.attribute(ours, "producer",
                      file.producer.empty() ? "grainfield " GRAINFIELD_VERSION : file.producer);
     writer.attribute(ours, "kind", file.kind);
-    writer.attribute(ours, "attributes", json_text(file.attributes));
+    writer.attribute(ours, "attributes", file.attributes.empty() ? "{}" : file.attributes);
     for (const Flag& flag : flags) {
         const std::int64_t value = file.*flag.member ? 1 : 0;
         writer.attribute(ours, flag.name, std::span(&value, 1));
@@ -147,10 +144,11 @@ void read_ours(const Hdf5Reader& reader, SphereFile& file) {
             fmt::format("format version {}; this program reads {}", version, format_version));
     file.producer = reader.text_attribute(ours, "producer");
     file.kind = reader.text_attribute(ours, "kind");
-    file.attributes = nlohmann::json::parse(reader.text_attribute(ours, "attributes"), nullptr,
-                                            /*allow_exceptions=*/false);
-    if (file.attributes.is_discarded())
-        reader.fail("attribute attributes of /grainfield: not JSON");
+    const auto attributes =
+        nlohmann::json::parse(reader.text_attribute(ours, "attributes"), nullptr,
+                              /*allow_exceptions=*/false);
+    if (attributes.is_discarded()) reader.fail("attribute attributes of /grainfield: not JSON");
+    if (!attributes.empty()) file.attributes = json_text(attributes);
     for (const Flag& flag : flags)
         file.*flag.member = reader.integer_attribute(ours, flag.name) != 0;
     if (reader.has(ours + "/box")) {

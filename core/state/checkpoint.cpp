@@ -14,13 +14,12 @@ namespace fs = std::filesystem;
 
 FoundCheckpoint open_checkpoint(const fs::path& file) {
     FoundCheckpoint found{file, {}, {}, std::make_shared<CheckpointReader>(file)};
-    std::string version, identity;
+    std::string version;
     StateReader archive(found.reader->stream());
-    archive(version, identity);
+    archive(version, found.identity);
     if (version != GRAINFIELD_VERSION)
         throw FileError(fmt::format("{}: is a checkpoint of version {}; this is {}", file.string(),
                                     version, GRAINFIELD_VERSION));
-    found.identity = nlohmann::json::parse(identity);
     return found;
 }
 
@@ -46,7 +45,7 @@ std::optional<FoundCheckpoint> find_checkpoint(const fs::path& file) {
     throw FileError(bad.size() == 1 ? bad[0] : fmt::format("{}; {}", bad[0], bad[1]));
 }
 
-Checkpoint::Checkpoint(fs::path file, nlohmann::json identity, double interval)
+Checkpoint::Checkpoint(fs::path file, std::string identity, double interval)
     : file_(std::move(file)),
       identity_(std::move(identity)),
       interval_(interval),
@@ -70,7 +69,7 @@ void Checkpoint::save() {
     last_ = Clock::now();  // one that fails is not tried again at once
     write_checkpoint_file(file_, file_before(file_), [&](std::ostream& stream) {
         StateWriter archive(stream);
-        archive(std::string(GRAINFIELD_VERSION), identity_.dump());
+        archive(std::string(GRAINFIELD_VERSION), identity_);
         for (const Level& level : levels_) {
             archive(level.name);
             level.save(archive);

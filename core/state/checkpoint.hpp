@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,7 +25,7 @@ class CheckpointReader;
 /// A checkpoint of an earlier run, found whole.
 struct FoundCheckpoint {
     std::filesystem::path file;
-    nlohmann::json identity;       ///< what the run was, as its Checkpoint was told
+    std::string identity;          ///< what the run was, as its Checkpoint was told
     std::vector<std::string> bad;  ///< newer files that are damaged: name and reason
     std::shared_ptr<CheckpointReader> reader;
 };
@@ -45,8 +44,9 @@ class Checkpoint {
     using Load = std::function<void(StateReader&)>;
 
     /// Saves into `file` when told to; due() about every `interval` seconds, never if that is 0.
-    /// `identity` says what the run is, for whoever resumes it.
-    Checkpoint(std::filesystem::path file, nlohmann::json identity, double interval);
+    /// `identity` says what the run is, as a
+    /// JSON object, for whoever resumes it.
+    Checkpoint(std::filesystem::path file, std::string identity, double interval);
     ~Checkpoint();
     Checkpoint(const Checkpoint&) = delete;
     Checkpoint& operator=(const Checkpoint&) = delete;
@@ -89,7 +89,7 @@ class Checkpoint {
         Save save;
     };
     std::filesystem::path file_;
-    nlohmann::json identity_;
+    std::string identity_;
     double interval_;  // [s]
     std::vector<Level> levels_;
     std::shared_ptr<CheckpointReader> source_;  // while the run resumes

@@ -107,15 +107,15 @@ TEST_F(Folder, MergingTakesRowsOverOnce) {
     }
     CampaignFolder folder = open(all);
     folder.append({{row(0), row(1)}});
-    EXPECT_EQ(folder.take_over(folder_ / "other"), 1u);
-    EXPECT_EQ(folder.take_over(folder_ / "other"), 0u);
+    EXPECT_EQ(folder.merge(folder_ / "other"), 1u);
+    EXPECT_EQ(folder.merge(folder_ / "other"), 0u);
     folder.write_results();
     EXPECT_EQ(folder.finished().size(), 3u);
     EXPECT_THAT(core::read_whole_file(folder_ / "out" / "failures.csv"),
                 HasSubstr("base,3,\"lost a 'sphere'\",failed/base-3.h5"));
     EXPECT_EQ(core::read_whole_file(folder_ / "out" / "failed" / "base-3.h5"), "state");
     { open(cases("particle.density = 2500\n"), {}, "stranger"); }
-    EXPECT_THROW(folder.take_over(folder_ / "stranger"), InputError);
+    EXPECT_THROW(folder.merge(folder_ / "stranger"), InputError);
 }
 
 }  // namespace

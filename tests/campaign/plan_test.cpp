@@ -84,8 +84,8 @@ TEST_F(Plan, ShardsShareEveryRowOut) {
     for (const std::int32_t shards : {1, 2, 5, 9}) {
         std::multiset<RowPlace> rows;
         for (std::int32_t shard = 1; shard <= shards; ++shard)
-            for (const Work& work : plan_campaign(all, {shard, shards}))
-                rows.insert(work.rows.begin(), work.rows.end());
+            for (const Job& job : plan_campaign(all, {shard, shards}))
+                rows.insert(job.rows.begin(), job.rows.end());
         EXPECT_EQ(rows.size(), 3u * 8u);
         for (std::size_t c = 0; c < 3; ++c)
             for (std::int64_t k = deterministic_run; k < 7; ++k)
@@ -117,8 +117,8 @@ TEST_F(Plan, CasesShareTheStartsThatTheyCanShare) {
         "'triaxial.strain_rate' = [0.1, 0.2]\n'packing.seed' = [1, 2]\n");
     std::set<std::string> starts, packings;
     for (const CampaignCase& one : all) {
-        starts.insert(config_hash(start_part(one.config)));
-        packings.insert(config_hash(packing_part(one.config)));
+        starts.insert(start_inputs(one.config).hash);
+        packings.insert(packing_inputs(one.config).hash);
     }
     EXPECT_EQ(starts.size(), 4u);
     EXPECT_EQ(packings.size(), 2u);

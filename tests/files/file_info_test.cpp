@@ -1,9 +1,11 @@
 #include "core/files/file_info.hpp"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include "core/base/errors.hpp"
 #include "core/files/hdf5_writer.hpp"
+#include "core/files/json_text.hpp"
 #include "core/files/sphere_formats.hpp"
 #include "core/files/text_file.hpp"
 #include "tests/files/sample.hpp"
@@ -33,7 +35,7 @@ TEST_F(FileInfoTest, DescribesASphereFile) {
     file.has_block = true;
     file.kind = "packing";
     file.producer = "grainfield 1.2.3";
-    file.attributes = {{"porosity", 0.4}, {"list", {1, 2, 3}}};
+    file.attributes = json_text({{"porosity", 0.4}, {"list", {1, 2, 3}}});
     file.extra["contacts"] = {{2, 2}, {0, 1, 1, 2}};
     write_spheres(in_folder("s.h5"), file);
     EXPECT_EQ(describe_file(in_folder("s.h5")),

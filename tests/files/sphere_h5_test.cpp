@@ -6,6 +6,7 @@
 #include "core/base/errors.hpp"
 #include "core/files/hdf5_reader.hpp"
 #include "core/files/hdf5_writer.hpp"
+#include "core/files/json_text.hpp"
 #include "core/files/sphere_formats.hpp"
 #include "core/files/text_file.hpp"
 #include "tests/files/sample.hpp"
@@ -43,7 +44,7 @@ class SphereH5Test : public FilesTest {
 SphereFile full_sample(std::size_t n) {
     SphereFile file = make_sample(n);
     file.kind = "packing";
-    file.attributes = {{"porosity", 0.1 + 0.2}, {"seed", 42}, {"name", "grüße \"x\"\n"}};
+    file.attributes = json_text({{"porosity", 0.1 + 0.2}, {"seed", 42}, {"name", "grüße \"x\"\n"}});
     file.extra["contacts"] = {{3, 2}, {0, 1, 1, 2, 2147483647, -6}};
     file.extra["shear_force"] = {{2}, {std::nextafter(1.0, 2.0), -0.0}};
     file.extra["nothing"] = {{0, 3}, {}};
@@ -90,7 +91,8 @@ TEST_F(SphereH5Test, KeepsColumnsWithoutFlagsAndNumbersThatAreNone) {
 
 TEST_F(SphereH5Test, KeepsLongAttributes) {
     SphereFile sample = make_sample(2);
-    sample.attributes["config"] = std::string(200000, 'c');  // HDF5's old limit was 64 KiB
+    sample.attributes =
+        json_text({{"config", std::string(200000, 'c')}});  // HDF5's old limit was 64 KiB
     write_spheres(in_folder("s.h5"), sample);
     expect_same(read_spheres(in_folder("s.h5")), sample);
 }

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "core/base/errors.hpp"
 #include "core/files/file_info.hpp"
@@ -26,7 +27,7 @@ class CheckpointFile : public FilesTest {
     fs::path file() const { return in_folder("run.bin"); }
     /// Makes a checkpoint of one number.
     void save(int number) {
-        Checkpoint checkpoint(file(), {{"what", "a number"}}, 0);
+        Checkpoint checkpoint(file(), R"({"what":"a number"})", 0);
         const auto part =
             part_of(&checkpoint, "number", [&](auto& archive) { archive(number, text_); });
         checkpoint.save();
@@ -36,7 +37,7 @@ class CheckpointFile : public FilesTest {
         auto found = find_checkpoint(file());
         EXPECT_TRUE(found);
         if (bad != nullptr) *bad = found->bad;
-        EXPECT_EQ(found->identity["what"], "a number");
+        EXPECT_EQ(nlohmann::json::parse(found->identity)["what"], "a number");
         Checkpoint checkpoint(file(), {}, 0);
         checkpoint.resume(*found);
         int number = 0;

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/files/sphere_file.hpp"
@@ -71,7 +72,7 @@ TEST(RunFiles, SummaryCurveAndStateOfATest) {
     EXPECT_EQ(state.spheres.block, run.simulation.spheres().block);
     ASSERT_TRUE(state.box);
     EXPECT_EQ(state.box->upper.y(), run.simulation.walls()[3].point.y());
-    EXPECT_EQ(state.attributes["state_hash"], run.simulation.state_hash());
+    EXPECT_EQ(nlohmann::json::parse(state.attributes)["state_hash"], run.simulation.state_hash());
     ASSERT_TRUE(state.extra.contains("contacts"));
     EXPECT_EQ(state.extra.at("contacts").shape[0],
               static_cast<std::size_t>(run.simulation.touching_contacts()));

@@ -15,7 +15,7 @@
 
 #include "core/base/errors.hpp"
 #include "triaxial/campaign/progress.hpp"
-#include "triaxial/campaign/run_work.hpp"
+#include "triaxial/campaign/run_job.hpp"
 #include "triaxial/campaign/starts.hpp"
 #include "triaxial/campaign/stopping.hpp"
 
@@ -27,10 +27,10 @@ constexpr auto look_interval = std::chrono::milliseconds(200);
 constexpr auto results_interval = std::chrono::seconds(20);
 
 /// The rows of a run, as the folder keeps them.
-std::vector<Row> rows_of(const Work& work, const Row& result,
+std::vector<Row> rows_of(const Job& job, const Row& result,
                          const std::vector<CampaignCase>& cases) {
     std::vector<Row> rows;
-    for (const RowPlace& place : work.rows) {
+    for (const RowPlace& place : job.rows) {
         Row row = result;
         row.case_name = cases[place.case_index].name;
         row.realization = place.realization;
@@ -40,36 +40,36 @@ std::vector<Row> rows_of(const Work& work, const Row& result,
     return rows;
 }
 
-/// Runs that share the threads: each takes the next that nobody has taken.
-class Crew {
+/// Workers that share the threads: each takes the next job that nobody has taken.
+class WorkerPool {
   public:
-    Crew(CampaignFolder& folder, const std::vector<CampaignCase>& cases, const Starts& starts,
-         std::vector<Work> todo, const std::map<RowPlace, Row>& finished)
-        : folder_(folder), cases_(cases), starts_(starts), todo_(std::move(todo)), needs_(cases) {
+    WorkerPool(CampaignFolder& folder, const Starts& starts, std::vector<Job> todo,
+               const std::map<RowPlace, Row>& finished)
+        : folder_(folder), starts_(starts), todo_(std::move(todo)), stopping_(folder.cases()) {
         learn(finished);
     }
 
     /// Works until all is done, something broke, or the monitor asks to stop.
     void run(int abreast, int threads, Progress& progress, core::Monitor& monitor) {
-        std::vector<std::jthread> members;
+        std::vector<std::jthread> workers;
         working_ = abreast;
-        for (int m = 0; m < abreast; ++m)
-            members.emplace_back([this, threads, &progress] { member(threads, progress); });
+        for (int w = 0; w < abreast; ++w)
+            workers.emplace_back([this, threads, &progress] { work(threads, progress); });
         try {
-            look_after(progress, monitor);
-        } catch (...) {  // or the members would work on to the end
+            supervise(progress, monitor);
+        } catch (...) {  // or the workers would go on to the end
             stop_ = true;
             throw;
         }
-        members.clear();
+        workers.clear();
         if (error_) std::rethrow_exception(error_);
     }
     bool stopped() const { return stop_; }
     std::size_t computed() const { return computed_; }
 
   private:
-    /// Until all members have ended: shows progress, writes results now and then.
-    void look_after(Progress& progress, core::Monitor& monitor) {
+    /// Until all workers have ended: shows progress, writes results now and then.
+    void supervise(Progress& progress, core::Monitor& monitor) {
         auto written = Clock::now();
         std::unique_lock lock(mutex_);
         while (!changed_.wait_for(lock, look_interval, [this] { return working_ == 0; })) {
@@ -84,16 +84,17 @@ class Crew {
         }
     }
 
-    void member(int threads, Progress& progress) {
+    /// One worker, on so many threads.
+    void work(int threads, Progress& progress) {
         omp_set_num_threads(threads);
         tbb::task_arena arena(threads);
         try {
-            while (const Work* work = next(progress)) {
-                const Row first = rows_of(*work, {}, cases_).front();
+            while (const Job* job = next(progress)) {
+                const Row first = rows_of(*job, {}, folder_.cases()).front();
                 const auto state = folder_.path() / CampaignFolder::state_name(first);
                 Row result;
-                arena.execute([&] { result = run_work(*work, starts_, state, stop_); });
-                finish(*work, result, progress);
+                arena.execute([&] { result = run_job(*job, starts_, state, stop_); });
+                finish(*job, result, progress);
             }
         } catch (const Interrupted&) {  // stop_ is set already
         } catch (...) {
@@ -106,41 +107,40 @@ class Crew {
         changed_.notify_all();
     }
 
-    const Work* next(Progress& progress) {
+    const Job* next(Progress& progress) {
         const std::lock_guard lock(mutex_);
         while (!stop_ && taken_ < todo_.size()) {
-            const Work& work = todo_[taken_++];
-            if (std::ranges::any_of(work.rows,
-                                    [&](const RowPlace& p) { return needs_.wants(p); })) {
+            const Job& job = todo_[taken_++];
+            if (std::ranges::any_of(job.rows,
+                                    [&](const RowPlace& p) { return stopping_.wants(p); })) {
                 progress.started();
-                return &work;
+                return &job;
             }
-            progress.skipped(work.rows.size());
+            progress.skipped(job.rows.size());
         }
         return nullptr;
     }
 
-    void finish(const Work& work, const Row& result, Progress& progress) {
-        const std::vector<Row> rows = rows_of(work, result, cases_);
+    void finish(const Job& job, const Row& result, Progress& progress) {
+        const std::vector<Row> rows = rows_of(job, result, folder_.cases());
         const std::lock_guard lock(mutex_);
         folder_.append(rows);
         progress.finished(rows);
         computed_ += rows.size();
-        for (std::size_t r = 0; r < rows.size(); ++r) needs_.add(work.rows[r], rows[r]);
+        for (std::size_t r = 0; r < rows.size(); ++r) stopping_.add(job.rows[r], rows[r]);
     }
 
     /// What other shards have found out counts, too.
     void learn(const std::map<RowPlace, Row>& finished) {
-        for (const auto& [place, row] : finished) needs_.add(place, row);
+        for (const auto& [place, row] : finished) stopping_.add(place, row);
     }
 
     CampaignFolder& folder_;
-    const std::vector<CampaignCase>& cases_;
     const Starts& starts_;
-    std::vector<Work> todo_;
-    Stopping needs_;
+    std::vector<Job> todo_;
+    Stopping stopping_;
     std::size_t taken_ = 0, computed_ = 0;
-    int working_ = 0;
+    int working_ = 0;  // workers
     std::atomic<bool> stop_ = false;
     std::exception_ptr error_;
     std::mutex mutex_;
@@ -155,35 +155,35 @@ int threads_a_run(std::size_t spheres) {
 }
 
 /// What is left of a plan. Rows whose run another row has already made are taken from it.
-std::vector<Work> left_of(std::vector<Work> plan, const std::map<RowPlace, Row>& finished,
-                          const std::vector<CampaignCase>& cases, CampaignFolder& folder) {
-    std::vector<Work> todo;
-    for (Work& work : plan) {
-        const auto known = std::find_if(work.rows.begin(), work.rows.end(),
+std::vector<Job> left_of(std::vector<Job> plan, const std::map<RowPlace, Row>& finished,
+                         CampaignFolder& folder) {
+    std::vector<Job> todo;
+    for (Job& job : plan) {
+        const auto known = std::find_if(job.rows.begin(), job.rows.end(),
                                         [&](const RowPlace& p) { return finished.contains(p); });
-        if (known == work.rows.end()) {
-            todo.push_back(std::move(work));
+        if (known == job.rows.end()) {
+            todo.push_back(std::move(job));
             continue;
         }
         const Row result = finished.at(*known);
-        std::erase_if(work.rows, [&](const RowPlace& p) { return finished.contains(p); });
-        folder.append(rows_of(work, result, cases));
+        std::erase_if(job.rows, [&](const RowPlace& p) { return finished.contains(p); });
+        folder.append(rows_of(job, result, folder.cases()));
     }
     return todo;
 }
 
 }  // namespace
 
-CampaignResult run_campaign(CampaignFolder& folder, const std::vector<CampaignCase>& cases,
-                            const CampaignOptions& options, core::Monitor& monitor) {
-    std::vector<Work> todo =
-        left_of(plan_campaign(cases, options.shard), folder.finished(), cases, folder);
-    Starts starts(folder.path(), options.packing);
+CampaignResult run_campaign(CampaignFolder& folder, const CampaignOptions& options,
+                            core::Monitor& monitor) {
+    std::vector<Job> todo =
+        left_of(plan_campaign(folder.cases(), folder.shard()), folder.finished(), folder);
+    Starts starts(folder.path(), folder.packing());
     // In a thread that ends: OpenMP counts its team as long as it lives, and teams that together
     // have more threads than there are cores go to sleep at every barrier.
     std::async(std::launch::async, [&] {
         omp_set_num_threads(options.threads);
-        for (const Work& work : todo) starts.prepare(*work.config, monitor);
+        for (const Job& job : todo) starts.prepare(*job.start, monitor);
     }).get();
 
     const int runs = static_cast<int>(std::min<std::size_t>(todo.size(), 1024));
@@ -192,11 +192,11 @@ CampaignResult run_campaign(CampaignFolder& folder, const std::vector<CampaignCa
     const int threads = std::max(1, options.threads / abreast);
     const std::map<RowPlace, Row> finished = folder.finished();
     Progress progress(finished, todo);
-    Crew crew(folder, cases, starts, std::move(todo), finished);
+    WorkerPool pool(folder, starts, std::move(todo), finished);
     monitor.begin("campaign");
-    crew.run(abreast, threads, progress, monitor);
-    const CampaignResult result{folder.write_results(), crew.computed()};
-    if (crew.stopped())
+    pool.run(abreast, threads, progress, monitor);
+    const CampaignResult result{folder.write_results(), pool.computed()};
+    if (pool.stopped())
         throw Interrupted(fmt::format("stopped by the user; {}; the same command goes on from here",
                                       progress.counts()));
     return result;

@@ -137,13 +137,15 @@ CampaignFolder::CampaignFolder(fs::path path, const std::vector<CampaignCase>& c
                                const std::optional<fs::path>& packing, const Shard& shard)
     : path_(made(std::move(path))),
       cases_(cases),
-      locks_(claim(path_, shard)),
+      packing_(packing),
+      shard_(shard),
+      locks_(lock_shard(path_, shard)),
       journal_(path_ / journal_name(shard)) {
     for (std::size_t c = 0; c < cases.size(); ++c) case_index_[cases[c].name] = c;
-    join(packing);
+    check_identity();
 }
 
-std::vector<FileLock> CampaignFolder::claim(const fs::path& folder, const Shard& shard) {
+std::vector<FileLock> CampaignFolder::lock_shard(const fs::path& folder, const Shard& shard) {
     std::vector<FileLock> locks;
     const auto take = [&](const fs::path& file, FileLock::Kind kind) {
         auto lock = FileLock::try_lock(file, kind);
@@ -164,13 +166,13 @@ std::vector<FileLock> CampaignFolder::claim(const fs::path& folder, const Shard&
 }
 
 /// Only one process at a time writes what the shards have in common.
-FileLock CampaignFolder::writing() const {
+FileLock CampaignFolder::lock_results() const {
     return FileLock::wait_for(path_ / "results.lock", [] {});
 }
 
-void CampaignFolder::join(const std::optional<fs::path>& packing) const {
-    nlohmann::json here = identity_of(cases_, packing);
-    const FileLock lock = writing();
+void CampaignFolder::check_identity() const {
+    nlohmann::json here = identity_of(cases_, packing_);
+    const FileLock lock = lock_results();
     const fs::path file = path_ / "campaign.json";
     if (fs::exists(file)) {
         const nlohmann::json there = read_json(file);
@@ -193,7 +195,7 @@ void CampaignFolder::join(const std::optional<fs::path>& packing) const {
             path_ / "cases" / (file_name(one.name) + ".toml"),
             fmt::format("# Row K of this case: grainfield triaxial with this file, --packing "
                         "starts/{}.h5 --realization K\n",
-                        config_hash(start_part(one.config))) +
+                        start_inputs(one.config).hash) +
                 case_text(one));
 }
 
@@ -214,7 +216,7 @@ std::map<RowPlace, Row> CampaignFolder::finished() const {
     return rows;
 }
 
-std::size_t CampaignFolder::take_over(const fs::path& other) {
+std::size_t CampaignFolder::merge(const fs::path& other) {
     compare(read_json(other / "campaign.json"), read_json(path_ / "campaign.json"), other);
     std::vector<Row> there = read_journals(other), mine = read_journals(path_), missing;
     std::sort(mine.begin(), mine.end(), row_before);
@@ -241,7 +243,7 @@ fs::path CampaignFolder::state_name(const Row& row) {
 }
 
 std::map<RowPlace, Row> CampaignFolder::write_results() const {
-    const FileLock lock = writing();
+    const FileLock lock = lock_results();
     std::map<RowPlace, Row> all = finished();
     std::vector<Row> rows, deterministic;
     std::string failures = "case,realization,reason,state\n";

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
+#include "triaxial/campaign/inputs.hpp"
 #include "triaxial/config/load_config.hpp"
 
 namespace grainfield::triaxial {
@@ -24,24 +24,17 @@ struct RowPlace {
     auto operator<=>(const RowPlace&) const = default;
 };
 
-/// One run and the rows that it fills: runs without a random field are the same for all
+/// A job: one run and the rows that it fills. Runs without a random field are the same for all
 /// realizations and for all cases that differ in their fields only.
-struct Work {
-    std::shared_ptr<const Config> config;
-    std::int64_t realization = 0;  ///< of the field [-]
+struct Job {
+    std::shared_ptr<const Inputs> inputs;
+    std::shared_ptr<const Inputs> start;  ///< those of its start
+    std::int64_t realization = 0;         ///< of the field [-]
     std::vector<RowPlace> rows;
 };
 
 /// All runs of a shard, realization by realization, so that every case grows alike; deterministic
 /// runs, if the campaign wants them, come first and belong to the first shard.
-std::vector<Work> plan_campaign(const std::vector<CampaignCase>& cases, const Shard& shard);
-
-/// A config as far as the packing depends on it, and as far as the sample at its isotropic stress
-/// does. Cases that agree in it share the packing, or the start.
-Config packing_part(const Config& config);
-Config start_part(const Config& config);
-
-/// A short name for a config: 16 digits of a hash of all its values.
-std::string config_hash(const Config& config);
+std::vector<Job> plan_campaign(const std::vector<CampaignCase>& cases, const Shard& shard);
 
 }  // namespace grainfield::triaxial

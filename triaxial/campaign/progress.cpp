@@ -16,9 +16,9 @@ std::string mean_text(std::span<const double> values) {
                            : std::string());
 }
 
-Progress::Progress(const std::map<RowPlace, Row>& finished, const std::vector<Work>& todo)
+Progress::Progress(const std::map<RowPlace, Row>& finished, const std::vector<Job>& todo)
     : total_(finished.size()), runs_(todo.size()), begin_(std::chrono::steady_clock::now()) {
-    for (const Work& work : todo) total_ += work.rows.size();
+    for (const Job& job : todo) total_ += job.rows.size();
     for (const auto& [place, row] : finished) count(row);
 }
 

@@ -21,7 +21,7 @@ std::string mean_text(std::span<const double> values);
 class Progress {
   public:
     /// `finished` are the rows that were there before, `todo` the runs to come.
-    Progress(const std::map<RowPlace, Row>& finished, const std::vector<Work>& todo);
+    Progress(const std::map<RowPlace, Row>& finished, const std::vector<Job>& todo);
 
     void started();
     void finished(std::span<const Row> rows);

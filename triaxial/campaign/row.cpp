@@ -1,4 +1,5 @@
 #include "triaxial/campaign/row.hpp"
+#include "core/files/json_text.hpp"
 
 #include <fmt/format.h>
 
@@ -40,7 +41,7 @@ std::string row_line(const Row& r) {
                               {"wall_seconds", r.wall_seconds},
                               {"state_hash", r.state_hash},
                               {"reason", r.reason}};
-    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return core::json_text(json);
 }
 
 bool parse_row(std::string_view line, Row& row) {

@@ -10,7 +10,6 @@
 #include "core/kernel_choice.hpp"
 #include "packing/isotropic.hpp"
 #include "triaxial/campaign/file_lock.hpp"
-#include "triaxial/campaign/plan.hpp"
 #include "triaxial/realization/packing_files.hpp"
 #include "triaxial/realization/run_files.hpp"
 #include "triaxial/realization/sample.hpp"
@@ -40,11 +39,11 @@ Starts::Starts(fs::path folder, std::optional<fs::path> packing)
 /// The packing that a config starts from, made if need be.
 fs::path Starts::packing_file(const Config& config, core::Monitor& monitor) {
     if (packing_) return *packing_;
-    const Config part = packing_part(config);
-    const fs::path file = folder_ / "packings" / (config_hash(part) + ".h5");
+    const Inputs inputs = packing_inputs(config);
+    const fs::path file = folder_ / "packings" / (inputs.hash + ".h5");
     const FileLock lock = lock_of(file, monitor);
     // The .json comes last.
-    if (!fs::exists(json_beside(file))) pack_into(file, part, monitor);
+    if (!fs::exists(json_beside(file))) pack_into(file, inputs.config, monitor);
     return file;
 }
 
@@ -67,14 +66,13 @@ Starts::Start Starts::make(const Config& config, const fs::path& file, core::Mon
     return {sample_of(read_packing(file, config), file), {}};
 }
 
-void Starts::prepare(const Config& config, core::Monitor& monitor) {
-    const Config part = start_part(config);
-    const std::string hash = config_hash(part);
-    if (starts_.contains(hash)) return;
+void Starts::prepare(const Inputs& start, core::Monitor& monitor) {
+    if (starts_.contains(start.hash)) return;
     try {
-        starts_[hash] = make(part, folder_ / "starts" / (hash + ".h5"), monitor);
+        starts_[start.hash] =
+            make(start.config, folder_ / "starts" / (start.hash + ".h5"), monitor);
     } catch (const SimulationError& error) {
-        starts_[hash] = {{}, error.what()};
+        starts_[start.hash] = {{}, error.what()};
     }
 }
 
@@ -84,11 +82,11 @@ std::size_t Starts::largest() const {
     return most;
 }
 
-const Sample& Starts::of(const Config& config) const {
-    const Start& start = starts_.at(config_hash(start_part(config)));
-    if (!start.failure.empty())
-        throw SimulationError("the sample that it starts from: " + start.failure);
-    return start.sample;
+const Sample& Starts::of(const Inputs& start) const {
+    const Start& made = starts_.at(start.hash);
+    if (!made.failure.empty())
+        throw SimulationError("the sample that it starts from: " + made.failure);
+    return made.sample;
 }
 
 }  // namespace grainfield::triaxial

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/base/monitor.hpp"
+#include "triaxial/campaign/inputs.hpp"
 #include "triaxial/realization/triaxial_test.hpp"
 
 namespace grainfield::triaxial {
@@ -19,13 +20,13 @@ class Starts {
     /// file instead of packings of their own.
     Starts(std::filesystem::path folder, std::optional<std::filesystem::path> packing);
 
-    /// Makes the start of a config, or reads it where it is there; other processes that want the
-    /// same wait. Uses all threads. A sample that cannot be made is remembered by its reason.
+    /// Makes the start of these inputs, or reads it where it is there; other processes that want
+    /// the same wait. Uses all threads. A sample that cannot be made is remembered by its reason.
     /// Throws what reading and writing throw, and Interrupted.
-    void prepare(const Config& config, core::Monitor& monitor);
+    void prepare(const Inputs& start, core::Monitor& monitor);
 
-    /// The start of a prepared config. Throws SimulationError with the reason if it cannot be made.
-    const Sample& of(const Config& config) const;
+    /// A prepared start. Throws SimulationError with the reason if it cannot be made.
+    const Sample& of(const Inputs& start) const;
     /// Spheres of the largest start [-].
     std::size_t largest() const;
 
@@ -39,7 +40,7 @@ class Starts {
 
     std::filesystem::path folder_;
     std::optional<std::filesystem::path> packing_;
-    std::map<std::string, Start> starts_;  // by the hash of start_part()
+    std::map<std::string, Start> starts_;  // by the hash of its inputs
 };
 
 }  // namespace grainfield::triaxial

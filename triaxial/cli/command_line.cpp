@@ -5,7 +5,6 @@
 #include <tbb/global_control.h>
 
 #include <cstdio>
-#include <iostream>
 #include <new>
 
 #include "core/base/errors.hpp"
@@ -25,15 +24,15 @@ constexpr const char* footer =
     "Example:\n  grainfield field --realizations 3 --out field.csv\n"
     "'grainfield SUBCOMMAND --help' tells more of each, with an example.";
 
-void add_commands(CLI::App& app, CommandLine& line) {
-    add_pack_command(app, line);
-    add_field_command(app, line);
-    add_triaxial_command(app, line);
-    add_montecarlo_command(app, line);
-    add_report_command(app, line);
-    add_simulate_command(app, line);
-    add_convert_command(app, line);
-    add_info_command(app, line);
+void add_commands(CommandLine& line) {
+    add_pack_command(line);
+    add_field_command(line);
+    add_triaxial_command(line);
+    add_montecarlo_command(line);
+    add_report_command(line);
+    add_simulate_command(line);
+    add_convert_command(line);
+    add_info_command(line);
 }
 
 /// What was printed may still sit in a buffer, or the pipe's disk be full.
@@ -49,36 +48,41 @@ int fail(int code, std::string_view message) {
 
 }  // namespace
 
-CLI::App& CommandLine::add(CLI::App& app, const std::string& name, const std::string& description,
-                           const std::string& example, Run run, OnSignal reaction) {
-    CLI::App& command = *app.add_subcommand(name, description);
-    command.footer("Example:\n  " + example);
-    command.add_option("--threads", threads_, "Threads to use (default: all that OpenMP gives)")
-        ->check(CLI::Range(1, most_threads));
-    command
-        .add_option("--set", settings_,
-                    "key.path=value: a config key to override, again for each key")
-        ->allow_extra_args(false);
-    command.add_option("--isa", isa_,
-                       "Instruction set: auto, scalar, avx2 or avx512; short for solver.isa");
+CommandLine::CommandLine()
+    : program_("Uncertainty of soils by random fields and the discrete element method.",
+               "grainfield") {
+    program_.set_footer(footer);
+    program_.add_version("--version", "grainfield " GRAINFIELD_VERSION);
+}
+
+ArgumentParser CommandLine::add(const std::string& name, const std::string& description,
+                                const std::string& example, Run run, OnSignal reaction) {
+    ArgumentParser command = program_.add_subcommand(name, description);
+    command.set_footer("Example:\n  " + example);
+    command.add("--threads", threads_, "Threads to use (default: all that OpenMP gives)")
+        .range(1, most_threads);
+    command.add("--set", settings_, "key.path=value: a config key to override, again for each key")
+        .one_value_each_time();
+    command.add("--isa", isa_,
+                "Instruction set: auto, scalar, avx2 or avx512; short for solver.isa");
     command.add_flag("--quiet", quiet_, "No progress on stderr, errors only");
     commands_[name] = {std::move(run), reaction};
     return command;
 }
 
-void CommandLine::run(CLI::App& app, int argc, const char* const* argv) {
+void CommandLine::run(int argc, const char* const* argv) {
     const std::string_view first = argc > 1 ? argv[1] : "";
     if (!first.empty() && !first.starts_with('-') && !commands_.contains(first)) {
         std::string names;
         for (const auto& [name, command] : commands_) names += (names.empty() ? "" : ", ") + name;
         throw InputError(fmt::format("'{}' is no subcommand; allowed: {}", first, names));
     }
-    app.parse(argc, argv);
-    if (app.get_subcommands().empty()) {
-        fmt::print(stderr, "{}\n", app.help());
+    if (!program_.parse(argc, argv)) return;  // --help, --version
+    if (program_.chosen().empty()) {
+        fmt::print(stderr, "{}\n", program_.help());
         throw InputError("a subcommand is needed");
     }
-    const Command& command = commands_.at(app.get_subcommands().front()->get_name());
+    const Command& command = commands_.at(program_.chosen());
     if (threads_ == 0) threads_ = std::min(omp_get_max_threads(), most_threads);
     omp_set_num_threads(threads_);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
@@ -101,18 +105,12 @@ void note_unused_settings(const Session& session) {
 }
 
 int run_program(int argc, const char* const* argv) {
-    CLI::App app("Uncertainty of soils by random fields and the discrete element method.",
-                 "grainfield");
-    app.footer(footer);
-    app.set_version_flag("--version", "grainfield " GRAINFIELD_VERSION);
-    app.require_subcommand(0, 1);
     CommandLine line;
-    add_commands(app, line);
+    add_commands(line);
     try {
-        line.run(app, argc, argv);
+        line.run(argc, argv);
         return 0;
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    } catch (const UsageError& error) {
         return fail(2, fmt::format("{} (see 'grainfield --help')", error.what()));
     } catch (const InputError& error) {
         return fail(2, error.what());

@@ -1,7 +1,6 @@
 #pragma once
 // The frame of the program: options that every subcommand has, and from exceptions to exit codes.
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <map>
 #include <memory>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "core/base/monitor.hpp"
+#include "triaxial/cli/argument_parser.hpp"
 #include "triaxial/cli/interrupt.hpp"
 
 namespace grainfield::triaxial {
@@ -24,29 +24,32 @@ struct Session {
 
 /// The subcommands by name. Each is registered by a function of commands.hpp:
 ///
-///     void add_pack_command(CLI::App& app, CommandLine& line) {
+///     void add_pack_command(CommandLine& line) {
 ///         auto arguments = std::make_shared<Arguments>();
-///         CLI::App& command = line.add(app, "pack", "Packs ...", "grainfield pack --out P.h5",
-///                                      [arguments](Session& session) { ... });
-///         command.add_option("--out", arguments->out, "...")->required();
+///         ArgumentParser command = line.add("pack", "Packs ...", "grainfield pack --out P.h5",
+///                                           [arguments](Session& session) { ... });
+///         command.add("--out", arguments->out, "...").required();
 ///     }
 class CommandLine {
   public:
     using Run = std::function<void(Session&)>;
 
+    CommandLine();
     /// Adds a subcommand with --threads, --set, --quiet and the example in its help. `run` is
     /// called once everything is parsed; it reports by exceptions (core/base/errors.hpp) only.
-    CLI::App& add(CLI::App& app, const std::string& name, const std::string& description,
-                  const std::string& example, Run run, OnSignal reaction = OnSignal::stop_safely);
+    ArgumentParser add(const std::string& name, const std::string& description,
+                       const std::string& example, Run run,
+                       OnSignal reaction = OnSignal::stop_safely);
 
-    /// Parses and runs. Throws what parsing (CLI::ParseError) or the subcommand throws.
-    void run(CLI::App& app, int argc, const char* const* argv);
+    /// Parses and runs. Throws UsageError and what the subcommand throws.
+    void run(int argc, const char* const* argv);
 
   private:
     struct Command {
         Run run;
         OnSignal reaction = OnSignal::stop_safely;
     };
+    ArgumentParser program_;
     std::map<std::string, Command, std::less<>> commands_;
     int threads_ = 0;  // 0: as OpenMP gives
     std::vector<std::string> settings_;

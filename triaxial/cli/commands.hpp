@@ -5,14 +5,14 @@
 
 namespace grainfield::triaxial {
 
-void add_pack_command(CLI::App& app, CommandLine& line);
-void add_field_command(CLI::App& app, CommandLine& line);
-void add_triaxial_command(CLI::App& app, CommandLine& line);
-void add_montecarlo_command(CLI::App& app, CommandLine& line);
-void add_report_command(CLI::App& app, CommandLine& line);
-void add_simulate_command(CLI::App& app, CommandLine& line);
-void add_convert_command(CLI::App& app, CommandLine& line);
-void add_info_command(CLI::App& app, CommandLine& line);
+void add_pack_command(CommandLine& line);
+void add_field_command(CommandLine& line);
+void add_triaxial_command(CommandLine& line);
+void add_montecarlo_command(CommandLine& line);
+void add_report_command(CommandLine& line);
+void add_simulate_command(CommandLine& line);
+void add_convert_command(CommandLine& line);
+void add_info_command(CommandLine& line);
 
 /// For subcommands that read no config: checks what --set says and notes that it has no effect.
 void note_unused_settings(const Session& session);

@@ -87,16 +87,16 @@ void run_convert(const ConvertArguments& arguments, Session& session) {
 
 }  // namespace
 
-void add_convert_command(CLI::App& app, CommandLine& line) {
+void add_convert_command(CommandLine& line) {
     auto arguments = std::make_shared<ConvertArguments>();
-    CLI::App& command = line.add(
-        app, "convert",
+    ArgumentParser command = line.add(
+        "convert",
         fmt::format("Converts a file of spheres; the suffixes say the formats: {}.",
                     core::sphere_file_suffixes),
         "grainfield convert packing.h5 packing.data",
         [arguments](Session& session) { run_convert(*arguments, session); }, OnSignal::end_at_once);
-    command.add_option("in", arguments->in, "File to read")->required();
-    command.add_option("out", arguments->out, "File to write, another than IN")->required();
+    command.add("in", arguments->in, "File to read").required();
+    command.add("out", arguments->out, "File to write, another than IN").required();
 }
 
 }  // namespace grainfield::triaxial

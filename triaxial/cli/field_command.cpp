@@ -153,21 +153,20 @@ void run_field(const FieldArguments& arguments, Session& session) {
 
 }  // namespace
 
-void add_field_command(CLI::App& app, CommandLine& line) {
+void add_field_command(CommandLine& line) {
     auto arguments = std::make_shared<FieldArguments>();
-    CLI::App& command = line.add(
-        app, "field", "Draws realizations of the random field on the grid of blocks.",
+    ArgumentParser command = line.add(
+        "field", "Draws realizations of the random field on the grid of blocks.",
         "grainfield field --set field.variable=friction --realizations 3 --out field.csv",
         [arguments](Session& session) { run_field(*arguments, session); }, OnSignal::end_at_once);
-    command.add_option("config", arguments->config,
-                       "Config (TOML); without one the case of docs/method.md");
-    command.add_option("--realizations", arguments->realizations,
-                       "How many, 1 unless given; with --verify 2000, at least 100");
+    command.add("config", arguments->config, "Config (TOML); without one the case of Tran et al.");
+    command.add("--realizations", arguments->realizations,
+                "How many, 1 unless given; with --verify 2000, at least 100");
     command
-        .add_option("--out", arguments->out,
-                    "File to write, .csv or .h5; with --verify a folder, or such a file, and "
-                    "the folder NAME-verify beside it")
-        ->required();
+        .add("--out", arguments->out,
+             "File to write, .csv or .h5; with --verify a folder, or such a file, and "
+             "the folder NAME-verify beside it")
+        .required();
     command.add_flag("--verify", arguments->verify,
                      "Holds realizations against the exact correlation, distribution and variance: "
                      "prints what is inside its band and what is OUTSIDE, and writes "

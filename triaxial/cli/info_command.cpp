@@ -7,16 +7,16 @@
 
 namespace grainfield::triaxial {
 
-void add_info_command(CLI::App& app, CommandLine& line) {
+void add_info_command(CommandLine& line) {
     auto file = std::make_shared<std::string>();
-    CLI::App& command = line.add(
-        app, "info", "Says in a few lines what is in a file.", "grainfield info packing.h5",
+    ArgumentParser command = line.add(
+        "info", "Says in a few lines what is in a file.", "grainfield info packing.h5",
         [file](Session& session) {
             note_unused_settings(session);
             fmt::print("{}", core::describe_file(*file));
         },
         OnSignal::end_at_once);
-    command.add_option("file", *file, "A file that any subcommand reads or writes")->required();
+    command.add("file", *file, "A file that any subcommand reads or writes").required();
 }
 
 }  // namespace grainfield::triaxial

@@ -62,11 +62,7 @@ void print_cases(const std::vector<CampaignCase>& cases, const std::map<RowPlace
 
 void run_montecarlo(const MonteCarloArguments& arguments, Session& session) {
     const std::vector<CampaignCase> cases = load_campaign(arguments.config, session.settings);
-    CampaignOptions options;
-    options.shard = parse_shard(arguments.shard);
-    options.threads = session.threads;
-    options.abreast = arguments.abreast;
-    if (arguments.packing) options.packing = *arguments.packing;
+    const Shard shard = parse_shard(arguments.shard);
     for (const CampaignCase& one : cases) check_field_data(one.config);
     for (const CampaignCase& one : cases)
         if (one.config.field.variable == randomfield::Variable::none &&
@@ -74,14 +70,15 @@ void run_montecarlo(const MonteCarloArguments& arguments, Session& session) {
             session.monitor.note(fmt::format(
                 "case \"{}\": field.variable is \"none\": all of its realizations are the same run",
                 one.name));
-    CampaignFolder folder(arguments.out, cases, options.packing, options.shard);
+    CampaignFolder folder(arguments.out, cases, arguments.packing, shard);
     if (!arguments.merge.empty()) {
         std::size_t taken = 0;
-        for (const std::string& other : arguments.merge) taken += folder.take_over(other);
+        for (const std::string& other : arguments.merge) taken += folder.merge(other);
         print_row("rows taken over", fmt::format("{}", taken));
         print_cases(cases, folder.write_results());
     } else {
-        const CampaignResult result = run_campaign(folder, cases, options, session.monitor);
+        const CampaignResult result =
+            run_campaign(folder, {session.threads, arguments.abreast}, session.monitor);
         print_row("rows computed", fmt::format("{}", result.computed));
         print_cases(cases, result.rows);
     }
@@ -90,31 +87,31 @@ void run_montecarlo(const MonteCarloArguments& arguments, Session& session) {
 
 }  // namespace
 
-void add_montecarlo_command(CLI::App& app, CommandLine& line) {
+void add_montecarlo_command(CommandLine& line) {
     auto arguments = std::make_shared<MonteCarloArguments>();
-    CLI::App& command = line.add(
-        app, "montecarlo",
+    ArgumentParser command = line.add(
+        "montecarlo",
         "Runs a campaign: every case of the config, [montecarlo] realizations of each. Stop it, "
         "kill it, start it again: it goes on.",
         "grainfield montecarlo campaign.toml --out campaign\n"
         "  grainfield montecarlo campaign.toml --out campaign --shard 3/16",
         [arguments](Session& session) { run_montecarlo(*arguments, session); });
-    command.add_option("config", arguments->config, "Config (TOML) of the campaign")->required();
-    command.add_option("--out", arguments->out, "Folder of the campaign")->required()->take_last();
-    command.add_option("--shard", arguments->shard,
-                       "I/N: only the I-th of N parts; parts may share a folder");
-    command.add_option("--packing", arguments->packing,
-                       "Packing that all runs start from, .h5 or .csv; without one each case's is "
-                       "made");
+    command.add("config", arguments->config, "Config (TOML) of the campaign").required();
+    command.add("--out", arguments->out, "Folder of the campaign").required().take_last();
+    command.add("--shard", arguments->shard,
+                "I/N: only the I-th of N parts; parts may share a folder");
+    command.add("--packing", arguments->packing,
+                "Packing that all runs start from, .h5 or .csv; without one each case's is "
+                "made");
     command
-        .add_option("--abreast", arguments->abreast,
-                    "Runs at a time, which share the threads (default: one a thread, of samples of "
-                    "100,000 spheres and more one for two threads)")
-        ->check(CLI::Range(1, 1024));
+        .add("--abreast", arguments->abreast,
+             "Runs at a time, which share the threads (default: one a thread, of samples of "
+             "100,000 spheres and more one for two threads)")
+        .range(1, 1024);
     command
-        .add_option("--merge", arguments->merge,
-                    "Folders of the same campaign whose rows are taken over; computes nothing")
-        ->expected(1, -1);
+        .add("--merge", arguments->merge,
+             "Folders of the same campaign whose rows are taken over; computes nothing")
+        .one_or_more_values();
 }
 
 }  // namespace grainfield::triaxial

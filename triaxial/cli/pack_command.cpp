@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/files/json_text.hpp"
 #include "triaxial/cli/commands.hpp"
-#include "triaxial/cli/kept_run.hpp"
 #include "triaxial/cli/print_row.hpp"
+#include "triaxial/cli/resumable_run.hpp"
 #include "triaxial/config/load_config.hpp"
 #include "triaxial/config/write_config.hpp"
 #include "triaxial/realization/packing_files.hpp"
@@ -17,7 +19,7 @@ namespace {
 struct PackArguments {
     std::optional<std::string> config;
     std::string out;
-    KeepingArguments keeping;
+    CheckpointArguments checkpoints;
 };
 
 void print_packing(const packing::Packing& p) {
@@ -53,17 +55,19 @@ void run_pack(const PackArguments& arguments, Session& session) {
     const auto beside = [&](const char* suffix) {
         return std::filesystem::path(arguments.out).replace_extension(suffix);
     };
-    const auto found = arguments.keeping.find(beside(".checkpoint.bin"), session.monitor);
+    const auto found = arguments.checkpoints.find(beside(".checkpoint.bin"), session.monitor);
     Config config = found ? resumed_config(*found, arguments.config, session.settings)
                           : load_config(arguments.config, session.settings);
     const std::string asked = write_config(config);
     if (found) config.solver = resumed_solver(*found, "pack", config.solver);
     nlohmann::json identity = run_identity("pack", config.solver);
     identity["config"] = asked;
-    core::Checkpoint checkpoint(beside(".checkpoint.bin"), identity, arguments.keeping.every);
+    core::Checkpoint checkpoint(beside(".checkpoint.bin"), core::json_text(identity),
+                                arguments.checkpoints.every);
     if (found) checkpoint.resume(*found);
-    KeptRun kept(session.monitor, beside(".failed.h5"), checkpoint);
-    const packing::Packing packed = kept.run([&] { return pack(config, kept, &checkpoint); });
+    ResumableRun resumable(session.monitor, beside(".failed.h5"), checkpoint);
+    const packing::Packing packed =
+        resumable.run([&] { return pack(config, resumable, &checkpoint); });
     write_packing(arguments.out, packed, packed.seconds());
     checkpoint.remove();
     print_packing(packed);
@@ -73,20 +77,18 @@ void run_pack(const PackArguments& arguments, Session& session) {
 
 }  // namespace
 
-void add_pack_command(CLI::App& app, CommandLine& line) {
+void add_pack_command(CommandLine& line) {
     auto arguments = std::make_shared<PackArguments>();
-    CLI::App& command = line.add(
-        app, "pack",
+    ArgumentParser command = line.add(
+        "pack",
         "Packs one block to the grading and porosity, clones it by mirror flips and lets the "
         "sample settle under gravity. Writes the spheres and, beside them, a .json.",
         "grainfield pack --set packing.spheres=351 --out P.h5",
         [arguments](Session& session) { run_pack(*arguments, session); });
-    command.add_option("config", arguments->config,
-                       "Config (TOML); without one the case of docs/method.md");
-    command
-        .add_option("--out", arguments->out, "File to write: .h5 (ParaView), .csv, .data or .txt")
-        ->required();
-    arguments->keeping.add_to(command);
+    command.add("config", arguments->config, "Config (TOML); without one the case of Tran et al.");
+    command.add("--out", arguments->out, "File to write: .h5 (ParaView), .csv, .data or .txt")
+        .required();
+    arguments->checkpoints.add_to(command);
 }
 
 }  // namespace grainfield::triaxial

@@ -36,18 +36,16 @@ void run_report(const ReportArguments& arguments, Session& session) {
 
 }  // namespace
 
-void add_report_command(CLI::App& app, CommandLine& line) {
+void add_report_command(CommandLine& line) {
     auto arguments = std::make_shared<ReportArguments>();
-    CLI::App& command = line.add(
-        app, "report",
+    ArgumentParser command = line.add(
+        "report",
         "Makes DIR/report.html, one page with the figures of a triaxial run or of a campaign.",
         "grainfield report run-100kPa run-200kPa",
         [arguments](Session& session) { run_report(*arguments, session); }, OnSignal::end_at_once);
-    command.add_option("dir", arguments->folder, "Folder of a triaxial run or a campaign")
-        ->required();
-    command.add_option(
-        "more", arguments->companions,
-        "Folders of runs at other confining stresses, for a common failure envelope");
+    command.add("dir", arguments->folder, "Folder of a triaxial run or a campaign").required();
+    command.add("more", arguments->companions,
+                "Folders of runs at other confining stresses, for a common failure envelope");
 }
 
 }  // namespace grainfield::triaxial

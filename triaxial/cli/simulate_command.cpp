@@ -1,12 +1,14 @@
 // `simulate`: any scene of spheres and plane walls.
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/files/checksum.hpp"
+#include "core/files/json_text.hpp"
 #include "core/files/text_file.hpp"
 #include "triaxial/cli/commands.hpp"
-#include "triaxial/cli/kept_run.hpp"
 #include "triaxial/cli/print_row.hpp"
+#include "triaxial/cli/resumable_run.hpp"
 #include "triaxial/cli/terminal_monitor.hpp"
 #include "triaxial/scene/run_scene.hpp"
 
@@ -25,7 +27,7 @@ constexpr const char* files_text =
 
 struct SimulateArguments {
     std::string scene, out;
-    KeepingArguments keeping;
+    CheckpointArguments checkpoints;
 };
 
 /// Checksum of all that the run is made of: scene, settings, spheres.
@@ -45,21 +47,22 @@ std::string checksum_of_inputs(const SimulateArguments& arguments, const SceneFi
 void run_simulate(const SimulateArguments& arguments, Session& session) {
     const std::filesystem::path out = arguments.out;
     const std::filesystem::path file = out / "checkpoint.bin";
-    const auto found = arguments.keeping.find(file, session.monitor);
+    const auto found = arguments.checkpoints.find(file, session.monitor);
     SceneFile scene = load_scene(arguments.scene, session.settings);
     if (found) scene.solver = resumed_solver(*found, "simulate", scene.solver);
     nlohmann::json identity = run_identity("simulate", scene.solver);
     identity["inputs"] = checksum_of_inputs(arguments, scene, session.settings);
-    if (found && found->identity.at("inputs") != identity["inputs"])
+    if (found && nlohmann::json::parse(found->identity).at("inputs") != identity["inputs"])
         throw InputError(
             fmt::format("--resume: {} is of another run: {}, its spheres or --set "
                         "are not what they were",
                         found->file.string(), arguments.scene));
-    core::Checkpoint checkpoint(file, identity, arguments.keeping.every);
+    core::Checkpoint checkpoint(file, core::json_text(identity), arguments.checkpoints.every);
     if (found) checkpoint.resume(*found);
-    KeptRun kept(session.monitor, out / "state.h5", checkpoint);
-    const SceneSummary s = kept.run(
-        [&] { return run_scene(scene, arguments.scene, out, session.threads, kept, &checkpoint); });
+    ResumableRun resumable(session.monitor, out / "state.h5", checkpoint);
+    const SceneSummary s = resumable.run([&] {
+        return run_scene(scene, arguments.scene, out, session.threads, resumable, &checkpoint);
+    });
     checkpoint.remove();
     print_row("particles, walls", fmt::format("{}, {}", s.particles, s.walls));
     print_row("contacts at the end", fmt::format("{}", s.contacts));
@@ -75,18 +78,17 @@ void run_simulate(const SimulateArguments& arguments, Session& session) {
 
 }  // namespace
 
-void add_simulate_command(CLI::App& app, CommandLine& line) {
+void add_simulate_command(CommandLine& line) {
     auto arguments = std::make_shared<SimulateArguments>();
-    CLI::App& command =
-        line.add(app, "simulate",
-                 "Runs a scene of spheres and plane walls: trajectories, energies, contacts.",
-                 "grainfield simulate scene.toml --out run --set time.end=0.1",
-                 [arguments](Session& session) { run_simulate(*arguments, session); });
-    command.footer(std::string(files_text) + command.get_footer());
-    command.add_option("scene", arguments->scene, "Scene (TOML)")->required();
-    command.add_option("--out", arguments->out, "Folder for the results, made where it is missing")
-        ->required();
-    arguments->keeping.add_to(command);
+    ArgumentParser command = line.add(
+        "simulate", "Runs a scene of spheres and plane walls: trajectories, energies, contacts.",
+        "grainfield simulate scene.toml --out run --set time.end=0.1",
+        [arguments](Session& session) { run_simulate(*arguments, session); });
+    command.set_footer(files_text + command.footer());
+    command.add("scene", arguments->scene, "Scene (TOML)").required();
+    command.add("--out", arguments->out, "Folder for the results, made where it is missing")
+        .required();
+    arguments->checkpoints.add_to(command);
 }
 
 }  // namespace grainfield::triaxial

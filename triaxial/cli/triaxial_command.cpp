@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 
@@ -10,12 +11,13 @@
 #include "core/base/stopwatch.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/folder.hpp"
+#include "core/files/json_text.hpp"
 #include "core/files/text_file.hpp"
 #include "core/kernel_choice.hpp"
 #include "core/state/part_of.hpp"
 #include "triaxial/cli/commands.hpp"
-#include "triaxial/cli/kept_run.hpp"
 #include "triaxial/cli/print_row.hpp"
+#include "triaxial/cli/resumable_run.hpp"
 #include "triaxial/config/load_config.hpp"
 #include "triaxial/config/write_config.hpp"
 #include "triaxial/realization/packing_files.hpp"
@@ -33,7 +35,7 @@ struct TriaxialArguments {
     std::optional<std::string> packing;
     std::optional<std::int64_t> realization;
     std::string out;
-    KeepingArguments keeping;
+    CheckpointArguments checkpoints;
 };
 
 /// The sample from a file; packing.json follows it into the run's folder where it exists.
@@ -92,7 +94,7 @@ struct Run {
 /// What was asked for, completed by the checkpoint where the run resumes.
 Run prepare_run(const TriaxialArguments& arguments, const fs::path& checkpoint, Session& session) {
     Run run;
-    run.found = arguments.keeping.find(checkpoint, session.monitor);
+    run.found = arguments.checkpoints.find(checkpoint, session.monitor);
     run.packing = arguments.packing;
     run.realization = arguments.realization.value_or(0);
     if (run.realization < 0)
@@ -102,7 +104,7 @@ Run prepare_run(const TriaxialArguments& arguments, const fs::path& checkpoint, 
                            : load_config(arguments.config, session.settings);
     run.asked = write_config(run.config);
     if (run.found) {
-        const nlohmann::json& before = run.found->identity;
+        const auto before = nlohmann::json::parse(run.found->identity);
         run.config.solver = resumed_solver(*run.found, "triaxial", run.config.solver);
         const std::string packing = before.at("packing");
         if (arguments.packing.value_or(packing) != packing)
@@ -161,16 +163,17 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
     check_field_data(config);
     const kernels::KernelTable& kernels = core::choose_kernels(config.solver);
     core::create_folder(out);
-    core::Checkpoint checkpoint(checkpoint_file, run.identity, arguments.keeping.every);
+    core::Checkpoint checkpoint(checkpoint_file, core::json_text(run.identity),
+                                arguments.checkpoints.every);
     if (run.found) checkpoint.resume(*run.found);
-    KeptRun kept(session.monitor, out / "state.h5", checkpoint);
+    ResumableRun resumable(session.monitor, out / "state.h5", checkpoint);
 
     Before before;
     const auto part = core::part_of(&checkpoint, "run", [&](auto& archive) { archive(before); });
     core::Simulation simulation =
-        kept.run([&] { return begin_test(run, before, kernels, out, kept, checkpoint); });
+        resumable.run([&] { return begin_test(run, before, kernels, out, resumable, checkpoint); });
     const TestResult result =
-        kept.run([&] { return run_test(simulation, config, kept, &checkpoint); });
+        resumable.run([&] { return run_test(simulation, config, resumable, &checkpoint); });
     const RunTimes& times = before.times;
     const FieldRecord& field = before.field;
     core::write_file_atomically(out / "config.toml", run.asked);
@@ -200,24 +203,23 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
 
 }  // namespace
 
-void add_triaxial_command(CLI::App& app, CommandLine& line) {
+void add_triaxial_command(CommandLine& line) {
     auto arguments = std::make_shared<TriaxialArguments>();
-    CLI::App& command =
-        line.add(app, "triaxial",
+    ArgumentParser command =
+        line.add("triaxial",
                  "Runs one triaxial test: packing (made, or read), random field, isotropic "
                  "compression, shear past the peak, "
                  "report.",
                  "grainfield triaxial --packing P.h5 --set field.variable=stiffness --realization "
                  "7 --out run7",
                  [arguments](Session& session) { run_triaxial(*arguments, session); });
-    command.add_option("config", arguments->config,
-                       "Config (TOML); without one the case of docs/method.md");
-    command.add_option("--packing", arguments->packing,
-                       "Packing to start from, .h5 or .csv; without one it is made");
-    command.add_option("--realization", arguments->realization,
-                       "Which realization of the field, 0 unless given");
-    command.add_option("--out", arguments->out, "Folder for the results")->required()->take_last();
-    arguments->keeping.add_to(command);
+    command.add("config", arguments->config, "Config (TOML); without one the case of Tran et al.");
+    command.add("--packing", arguments->packing,
+                "Packing to start from, .h5 or .csv; without one it is made");
+    command.add("--realization", arguments->realization,
+                "Which realization of the field, 0 unless given");
+    command.add("--out", arguments->out, "Folder for the results").required().take_last();
+    arguments->checkpoints.add_to(command);
 }
 
 }  // namespace grainfield::triaxial

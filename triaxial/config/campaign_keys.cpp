@@ -1,6 +1,7 @@
 #include "triaxial/config/campaign_keys.hpp"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cctype>
@@ -24,7 +25,7 @@ class Trial {
     }
 
     void check(const TomlReader& reader, const std::string& within, const std::string& path,
-               const TomlValue& value) const {
+               const toml::node& value) const {
         const auto key = std::ranges::find(keys_, path, &ConfigKey::path);
         if (key == keys_.end()) throw unknown(within, path, value);
         if (!key->slot.set(value))
@@ -34,11 +35,11 @@ class Trial {
 
   private:
     InputError unknown(const std::string& within, const std::string& path,
-                       const TomlValue& value) const {
+                       const toml::node& value) const {
         std::set<std::string> known;
         for (const ConfigKey& key : keys_) known.insert(key.path);
         const auto nearest = nearest_key(path, known);
-        return InputError(fmt::format("{}: {} is not a known key in {}{}", value.origin,
+        return InputError(fmt::format("{}: {} is not a known key in {}{}", origin_of(value),
                                       toml_string(path), within,
                                       nearest ? "; did you mean \"" + *nearest + "\"?" : ""));
     }
@@ -55,34 +56,38 @@ bool is_name(const std::string& name) {
 }
 
 /// A value as part of a case's name: 5x0.5x5 for [5, 0.5, 5].
-std::string value_name(const TomlValue& value) {
-    if (const auto* text = std::get_if<std::string>(&value.data)) return *text;
-    const auto* array = std::get_if<TomlValue::Array>(&value.data);
+std::string value_name(const toml::node& value) {
+    if (const auto* text = value.as_string()) return text->get();
+    const toml::array* array = value.as_array();
     if (array == nullptr) return toml_text(value);
     std::string name;
-    for (const TomlValue& element : *array) name += (name.empty() ? "" : "x") + value_name(element);
+    for (const toml::node& element : *array)
+        name += (name.empty() ? "" : "x") + value_name(element);
     return name;
 }
 
 /// One swept key: the name it goes by in the names of cases, and its values.
 struct SweptKey {
     std::string path, name;
-    TomlValue::Array values;
+    std::vector<const toml::node*> values;
 };
 
-std::vector<SweptKey> read_sweep(const TomlReader& reader, const TomlValue& sweep) {
+std::vector<SweptKey> read_sweep(const TomlReader& reader, const toml::node& sweep) {
     if (!sweep.is_table())
         throw reader.wrong_value("montecarlo.sweep", sweep, "a table of keys and arrays of values");
     const Trial trial;
     std::vector<SweptKey> keys;
     std::multiset<std::string> short_names;
-    for (const auto& [path, values] : leaves(sweep)) {
-        const auto* array = std::get_if<TomlValue::Array>(&values.data);
+    for (const auto& [path, values] : leaves(*sweep.as_table())) {
+        const toml::array* array = values->as_array();
         if (array == nullptr || array->empty())
-            throw reader.wrong_value("montecarlo.sweep." + toml_string(path), values,
+            throw reader.wrong_value("montecarlo.sweep." + toml_string(path), *values,
                                      "an array of one or more values");
-        for (const TomlValue& value : *array) trial.check(reader, "montecarlo.sweep", path, value);
-        keys.push_back({path, path.substr(path.rfind('.') + 1), *array});
+        SweptKey& key = keys.emplace_back(path, path.substr(path.rfind('.') + 1));
+        for (const toml::node& value : *array) {
+            trial.check(reader, "montecarlo.sweep", path, value);
+            key.values.push_back(&value);
+        }
         short_names.insert(keys.back().name);
     }
     for (SweptKey& key : keys)
@@ -90,35 +95,37 @@ std::vector<SweptKey> read_sweep(const TomlReader& reader, const TomlValue& swee
     return keys;
 }
 
-CaseKeys read_case(const TomlReader& document, const TomlValue& one, std::set<std::string>& names) {
+CaseKeys read_case(const TomlReader& document, const toml::table& one,
+                   std::set<std::string>& names) {
     TomlReader reader(one, "", "montecarlo.case.");
     CaseKeys result;
     reader.require({"name", text_slot(result.name, "a text"), ""});
     if (!is_name(result.name))
-        throw reader.wrong_value("name", *one.find("name"),
+        throw reader.wrong_value("name", *one.get("name"),
                                  "a name of letters, digits, blanks and . _ + = -");
     if (!names.insert(result.name).second)
-        throw reader.wrong_value("name", *one.find("name"), "a name of its own for every case");
-    if (const TomlValue* set = reader.take("set")) {
+        throw reader.wrong_value("name", *one.get("name"), "a name of its own for every case");
+    if (const toml::node* set = reader.take("set")) {
         if (!set->is_table()) throw reader.wrong_value("set", *set, "a table of keys and values");
         const Trial trial;
-        result.values = leaves(*set);
+        result.values = leaves(*set->as_table());
         for (const auto& [path, value] : result.values)
-            trial.check(document, "montecarlo.case.set", path, value);
+            trial.check(document, "montecarlo.case.set", path, *value);
     }
     reader.finish();
     return result;
 }
 
-std::vector<CaseKeys> read_cases(const TomlReader& reader, const TomlValue& cases) {
-    const auto* array = std::get_if<TomlValue::Array>(&cases.data);
-    const auto is_table = [](const TomlValue& value) { return value.is_table(); };
+std::vector<CaseKeys> read_cases(const TomlReader& reader, const toml::node& cases) {
+    const toml::array* array = cases.as_array();
+    const auto is_table = [](const toml::node& value) { return value.is_table(); };
     if (array == nullptr || !std::ranges::all_of(*array, is_table))
         throw reader.wrong_value("montecarlo.case", cases,
                                  "an array of tables [[montecarlo.case]]");
     std::set<std::string> names;
     std::vector<CaseKeys> result;
-    for (const TomlValue& one : *array) result.push_back(read_case(reader, one, names));
+    for (const toml::node& one : *array)
+        result.push_back(read_case(reader, *one.as_table(), names));
     return result;
 }
 
@@ -126,11 +133,11 @@ std::vector<CaseKeys> read_cases(const TomlReader& reader, const TomlValue& case
 std::vector<CaseKeys> crossed(const std::vector<CaseKeys>& cases, const SweptKey& key) {
     std::vector<CaseKeys> result;
     for (const CaseKeys& one : cases)
-        for (const TomlValue& value : key.values) {
+        for (const toml::node* value : key.values) {
             CaseKeys next = one;
             next.name +=
-                fmt::format("{}{}={}", next.name.empty() ? "" : " ", key.name, value_name(value));
-            next.values.push_back({key.path, value});
+                fmt::format("{}{}={}", next.name.empty() ? "" : " ", key.name, value_name(*value));
+            next.values.emplace_back(key.path, value);
             result.push_back(std::move(next));
         }
     return result;
@@ -141,9 +148,10 @@ std::vector<CaseKeys> crossed(const std::vector<CaseKeys>& cases, const SweptKey
 std::vector<CaseKeys> read_campaign(TomlReader& reader) {
     std::vector<CaseKeys> cases;
     std::vector<SweptKey> sweep;
-    if (const TomlValue* value = reader.take("montecarlo.sweep"))
+    if (const toml::node* value = reader.take("montecarlo.sweep"))
         sweep = read_sweep(reader, *value);
-    if (const TomlValue* value = reader.take("montecarlo.case")) cases = read_cases(reader, *value);
+    if (const toml::node* value = reader.take("montecarlo.case"))
+        cases = read_cases(reader, *value);
     if (cases.empty()) cases.push_back({sweep.empty() ? "base" : "", {}});
     for (const SweptKey& key : sweep) cases = crossed(cases, key);
     std::set<std::string> names;

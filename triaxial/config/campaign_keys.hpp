@@ -8,10 +8,11 @@
 
 namespace grainfield::triaxial {
 
-/// One case of a campaign: its name and the values it sets, by dotted path.
+/// One case of a campaign: its name and the values it sets, later ones over earlier. The values
+/// stand in the document of the reader.
 struct CaseKeys {
     std::string name;
-    TomlValue::Table values;
+    TomlLeaves values;
 };
 
 /// Takes montecarlo.sweep and montecarlo.case and checks that every key in them is one of a config

@@ -1,6 +1,7 @@
 #include "triaxial/config/key_slot.hpp"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,28 @@
 namespace grainfield::triaxial {
 namespace {
 
-TomlValue value_of(TomlValue::Data data) {
-    return {std::move(data), {}};
+TomlNode text_node(std::string text) {
+    return std::make_shared<toml::value<std::string>>(std::move(text));
+}
+
+template <class Numbers>
+TomlNode array_node(const Numbers& numbers) {
+    auto array = std::make_shared<toml::array>();
+    for (const auto number : numbers) array->push_back(number);
+    return array;
+}
+
+/// The slot of a variable by what a node means to it (nullopt: not allowed) and the node of its
+/// value.
+template <class T, class ValueOf, class NodeOf>
+Slot made_slot(T& target, std::string expected, ValueOf value_of, NodeOf node_of) {
+    return {std::move(expected),
+            [&target, value_of = std::move(value_of)](const toml::node& node) {
+                auto value = value_of(node);
+                if (value) target = *std::move(value);
+                return value.has_value();
+            },
+            [&target, node_of] { return node_of(target); }};
 }
 
 /// "a number", "a number > 0"
@@ -20,50 +41,45 @@ std::string with_range(std::string_view noun, std::string_view range) {
 }
 
 /// An integer is a number too: `gravity = 0`.
-std::optional<double> as_number(const TomlValue& value, const Range& allowed) {
-    double number = std::nan("");
-    if (const auto* real = std::get_if<double>(&value.data)) number = *real;
-    if (const auto* whole = std::get_if<std::int64_t>(&value.data))
-        number = static_cast<double>(*whole);
+std::optional<double> as_number(const toml::node& node, const Range& allowed) {
+    double number = node.value_exact<double>().value_or(std::nan(""));
+    if (const auto* whole = node.as_integer()) number = static_cast<double>(whole->get());
     return allowed.contains(number) ? std::optional(number) : std::nullopt;
 }
 
-std::optional<std::int64_t> as_whole(const TomlValue& value, const WholeRange& allowed) {
-    const auto* whole = std::get_if<std::int64_t>(&value.data);
-    return whole != nullptr && allowed.contains(*whole) ? std::optional(*whole) : std::nullopt;
+auto number_in(const Range& allowed) {
+    return [allowed](const toml::node& node) { return as_number(node, allowed); };
 }
 
-/// All elements, each through `one`; nullopt where the value is no array or an element is refused.
+auto whole_in(const WholeRange& allowed) {
+    return [allowed](const toml::node& node) {
+        const auto whole = node.value_exact<std::int64_t>();
+        return whole && allowed.contains(*whole) ? whole : std::nullopt;
+    };
+}
+
+std::optional<std::string> as_text(const toml::node& node) {
+    auto text = node.value_exact<std::string>();
+    return text && !text->empty() ? text : std::nullopt;
+}
+
+/// All elements, each through `one`; nullopt where the node is no array, an element is refused or
+/// there are fewer than `fewest` or more than `most`.
 template <class T, class One>
-std::optional<std::vector<T>> as_array(const TomlValue& value, const One& one) {
-    const auto* array = std::get_if<TomlValue::Array>(&value.data);
-    if (array == nullptr) return std::nullopt;
+std::optional<std::vector<T>> as_array(const toml::node& node, const One& one, std::size_t fewest,
+                                       std::size_t most) {
+    const toml::array* array = node.as_array();
+    if (array == nullptr || array->size() < fewest || array->size() > most) return std::nullopt;
     std::vector<T> result;
-    for (const TomlValue& element : *array) {
+    for (const toml::node& element : *array) {
         const auto converted = one(element);
         if (!converted) return std::nullopt;
-        result.push_back(*converted);
+        result.push_back(static_cast<T>(*converted));
     }
     return result;
 }
 
-template <class Numbers>
-TomlValue array_value(const Numbers& numbers) {
-    TomlValue::Array array;
-    for (const auto number : numbers) {
-        if constexpr (std::integral<std::remove_cv_t<decltype(number)>>)
-            array.push_back(whole_value(number));
-        else
-            array.push_back(value_of(number));
-    }
-    return value_of(std::move(array));
-}
-
-std::optional<std::vector<double>> as_numbers(const TomlValue& value, const Range& allowed) {
-    return as_array<double>(value, [&](const TomlValue& v) { return as_number(v, allowed); });
-}
-
-std::string choice_text(std::span<const std::string_view> names) {
+std::string choice_text(const std::vector<std::string_view>& names) {
     std::string text;
     for (const std::string_view name : names)
         text += (text.empty() ? "" : ", ") + toml_string(name);
@@ -82,119 +98,87 @@ std::string WholeRange::text() const {
                                                             : fmt::format("in [{}, {}]", low, high);
 }
 
+TomlNode number_node(std::int64_t value) {
+    return std::make_shared<toml::value<std::int64_t>>(value);
+}
+
+TomlNode number_node(double value) {
+    return std::make_shared<toml::value<double>>(value);
+}
+
 Slot slot(bool& target) {
-    return {"true or false",
-            [&target](const TomlValue& value) {
-                const auto* truth = std::get_if<bool>(&value.data);
-                if (truth != nullptr) target = *truth;
-                return truth != nullptr;
-            },
-            [&target] { return value_of(target); }};
+    return made_slot(
+        target, "true or false", [](const toml::node& node) { return node.value_exact<bool>(); },
+        [](bool truth) { return std::make_shared<toml::value<bool>>(truth); });
 }
 
 Slot slot(double& target, const Range& allowed) {
-    return {with_range("a number", allowed.text),
-            [&target, allowed](const TomlValue& value) {
-                const auto number = as_number(value, allowed);
-                if (number) target = *number;
-                return number.has_value();
-            },
-            [&target] { return value_of(target); }};
+    return made_slot(target, with_range("a number", allowed.text), number_in(allowed),
+                     [](double number) { return number_node(number); });
 }
 
 Slot slot(std::optional<double>& target, const Range& allowed) {
-    return {with_range("a number", allowed.text),
-            [&target, allowed](const TomlValue& value) {
-                const auto number = as_number(value, allowed);
-                if (number) target = number;
-                return number.has_value();
-            },
-            [&target] { return target ? std::optional(value_of(*target)) : std::nullopt; }};
+    return made_slot(target, with_range("a number", allowed.text), number_in(allowed),
+                     [](const auto& number) { return number ? number_node(*number) : nullptr; });
 }
 
 Slot slot_or_auto(std::optional<double>& target, const Range& allowed) {
-    return {"\"auto\" or " + with_range("a number", allowed.text),
-            [&target, allowed](const TomlValue& value) {
-                const auto* text = std::get_if<std::string>(&value.data);
-                const bool automatic = text != nullptr && *text == "auto";
-                const auto number = as_number(value, allowed);
-                if (automatic || number) target = number;
-                return automatic || number;
-            },
-            [&target] { return target ? value_of(*target) : value_of(std::string("auto")); }};
+    using Answer = std::optional<std::optional<double>>;
+    return made_slot(
+        target, "\"auto\" or " + with_range("a number", allowed.text),
+        [allowed](const toml::node& node) {
+            const auto number = as_number(node, allowed);
+            return number || as_text(node) == "auto" ? Answer(number) : std::nullopt;
+        },
+        [](const auto& number) { return number ? number_node(*number) : text_node("auto"); });
 }
 
 Slot slot(std::vector<double>& target, const Range& allowed) {
-    return {"an array of " + with_range("2 or more numbers", allowed.text),
-            [&target, allowed](const TomlValue& value) {
-                auto numbers = as_numbers(value, allowed);
-                if (!numbers || numbers->size() < 2) return false;
-                target = std::move(*numbers);
-                return true;
-            },
-            [&target] { return array_value(target); }};
+    return made_slot(
+        target, "an array of " + with_range("2 or more numbers", allowed.text),
+        [allowed](const toml::node& node) {
+            return as_array<double>(node, number_in(allowed), 2, std::string::npos);
+        },
+        [](const auto& numbers) { return array_node(numbers); });
 }
 
 Slot slot(Vec3& target, const Range& allowed) {
-    return {"an array of " + with_range("3 numbers", allowed.text),
-            [&target, allowed](const TomlValue& value) {
-                const auto numbers = as_numbers(value, allowed);
-                if (!numbers || numbers->size() != 3) return false;
-                target = {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
-                return true;
-            },
-            [&target] { return array_value(target); }};
+    return made_slot(
+        target, "an array of " + with_range("3 numbers", allowed.text),
+        [allowed](const toml::node& node) {
+            const auto n = as_array<double>(node, number_in(allowed), 3, 3);
+            return n ? std::optional(Vec3((*n)[0], (*n)[1], (*n)[2])) : std::nullopt;
+        },
+        [](const Vec3& vector) { return array_node(vector); });
 }
 
 Slot slot(std::array<std::int32_t, 3>& target, std::int64_t lowest) {
     const WholeRange allowed = whole_range<std::int32_t>(lowest);
-    return {"an array of 3 whole numbers " + allowed.text(),
-            [&target, allowed](const TomlValue& value) {
-                const auto one = [&](const TomlValue& v) { return as_whole(v, allowed); };
-                const auto wholes = as_array<std::int64_t>(value, one);
-                if (!wholes || wholes->size() != 3) return false;
-                std::transform(wholes->begin(), wholes->end(), target.begin(),
-                               [](std::int64_t n) { return static_cast<std::int32_t>(n); });
-                return true;
-            },
-            [&target] { return array_value(target); }};
+    using Answer = std::optional<std::array<std::int32_t, 3>>;
+    return made_slot(
+        target, "an array of 3 whole numbers " + allowed.text(),
+        [allowed](const toml::node& node) {
+            const auto n = as_array<std::int32_t>(node, whole_in(allowed), 3, 3);
+            return n ? Answer({(*n)[0], (*n)[1], (*n)[2]}) : std::nullopt;
+        },
+        [](const auto& wholes) { return array_node(wholes); });
 }
 
 Slot text_slot(std::string& target, std::string expected) {
-    return {std::move(expected),
-            [&target](const TomlValue& value) {
-                const auto* text = std::get_if<std::string>(&value.data);
-                if (text == nullptr || text->empty()) return false;
-                target = *text;
-                return true;
-            },
-            [&target] { return value_of(target); }};
+    return made_slot(target, std::move(expected), as_text, text_node);
 }
 
 Slot optional_text_slot(std::string& target, std::string expected) {
-    Slot slot = text_slot(target, std::move(expected));
-    slot.get = [&target] {
-        return target.empty() ? std::nullopt : std::optional(value_of(target));
-    };
-    return slot;
-}
-
-Slot slot(std::string& target, std::span<const std::string_view> texts) {
-    return {choice_text(texts),
-            [&target, texts](const TomlValue& value) {
-                const auto* text = std::get_if<std::string>(&value.data);
-                if (text == nullptr || std::ranges::find(texts, *text) == texts.end()) return false;
-                target = *text;
-                return true;
-            },
-            [&target] { return value_of(target); }};
+    return made_slot(target, std::move(expected), as_text, [](const std::string& text) {
+        return text.empty() ? nullptr : text_node(text);
+    });
 }
 
 Slot whole_slot(const WholeRange& allowed, std::function<void(std::int64_t)> set,
-                std::function<std::optional<TomlValue>()> get) {
+                std::function<TomlNode()> get) {
     return {"a whole number " + allowed.text(),
-            [allowed, set = std::move(set)](const TomlValue& value) {
-                const auto whole = as_whole(value, allowed);
+            [whole_of = whole_in(allowed), set = std::move(set)](const toml::node& node) {
+                const auto whole = whole_of(node);
                 if (whole) set(*whole);
                 return whole.has_value();
             },
@@ -206,11 +190,11 @@ Slot choice_slot(std::vector<std::string_view> names, std::function<void(std::si
     std::string expected = choice_text(names);
     const auto name_of = [names, get = std::move(get)] {
         const auto i = get();  // nullopt: an enumerator made by a cast, refused by set
-        return value_of(std::string(i ? names[*i] : "no enumerator"));
+        return text_node(std::string(i ? names[*i] : "no enumerator"));
     };
     return {std::move(expected),
-            [names = std::move(names), set = std::move(set)](const TomlValue& value) {
-                const auto* text = std::get_if<std::string>(&value.data);
+            [names = std::move(names), set = std::move(set)](const toml::node& node) {
+                const auto text = as_text(node);
                 const auto found = text ? std::ranges::find(names, *text) : names.end();
                 if (found == names.end()) return false;
                 set(static_cast<std::size_t>(found - names.begin()));

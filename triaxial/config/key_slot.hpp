@@ -7,15 +7,15 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "kernels/vec3.hpp"
-#include "triaxial/config/toml_value.hpp"
+#include "triaxial/config/toml_file.hpp"
 
 namespace grainfield::triaxial {
 
@@ -53,11 +53,14 @@ struct Named {
     std::string_view name;
 };
 
+/// A value made here; null: none.
+using TomlNode = std::shared_ptr<const toml::node>;
+
 /// The variable behind a key. It is referred to, not copied, and must outlive the slot.
 struct Slot {
-    std::string expected;                           ///< "a number in (0.2, 0.9)", for messages
-    std::function<bool(const TomlValue&)> set;      ///< false (and no change): not allowed
-    std::function<std::optional<TomlValue>()> get;  ///< nullopt: optional and unset
+    std::string expected;                        ///< "a number in (0.2, 0.9)", for messages
+    std::function<bool(const toml::node&)> set;  ///< false (and no change): not allowed
+    std::function<TomlNode()> get;               ///< null: optional and unset
 };
 
 struct ConfigKey {
@@ -76,11 +79,10 @@ Slot slot_or_auto(std::optional<double>& target, const Range& allowed);  ///< un
 Slot text_slot(std::string& target, std::string expected);               ///< any but empty text
 /// Any but empty text in a file; unset where the target is empty.
 Slot optional_text_slot(std::string& target, std::string expected);
-/// One of some texts; `texts` must outlive the slot.
-Slot slot(std::string& target, std::span<const std::string_view> texts);
-/// What the two templates below have in common. set gets a value in range; get: nullopt is unset.
+/// What the two templates below have in common. set gets a value in range; get: null, nullopt:
+/// unset.
 Slot whole_slot(const WholeRange& allowed, std::function<void(std::int64_t)> set,
-                std::function<std::optional<TomlValue>()> get);
+                std::function<TomlNode()> get);
 Slot choice_slot(std::vector<std::string_view> names, std::function<void(std::size_t)> set,
                  std::function<std::optional<std::size_t>()> get);
 
@@ -92,29 +94,28 @@ WholeRange whole_range(std::int64_t lowest) {
                : WholeRange{lowest};
 }
 
+TomlNode number_node(std::int64_t value);
+TomlNode number_node(double value);
+
 /// A whole number as TOML; one that TOML's 64 bits cannot hold becomes a (never allowed) float.
 template <std::integral T>
-TomlValue whole_value(T value) {
-    TomlValue result;
-    if (std::in_range<std::int64_t>(value))
-        result.data = static_cast<std::int64_t>(value);
-    else
-        result.data = static_cast<double>(value);
-    return result;
+TomlNode whole_node(T value) {
+    return std::in_range<std::int64_t>(value) ? number_node(static_cast<std::int64_t>(value))
+                                              : number_node(static_cast<double>(value));
 }
 
 template <std::integral T>
 Slot slot(T& target, std::int64_t lowest) {
     return whole_slot(
         whole_range<T>(lowest), [&target](std::int64_t value) { target = static_cast<T>(value); },
-        [&target] { return std::optional(whole_value(target)); });
+        [&target] { return whole_node(target); });
 }
 
 template <std::integral T>
 Slot slot(std::optional<T>& target, std::int64_t lowest) {
     return whole_slot(
         whole_range<T>(lowest), [&target](std::int64_t value) { target = static_cast<T>(value); },
-        [&target] { return target ? std::optional(whole_value(*target)) : std::nullopt; });
+        [&target] { return target ? whole_node(*target) : nullptr; });
 }
 
 /// One of an enumeration's names; the array must outlive the slot.

@@ -1,6 +1,10 @@
 #include "triaxial/config/load_config.hpp"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <tuple>
 
 #include "triaxial/config/campaign_keys.hpp"
 #include "triaxial/config/config_keys.hpp"
@@ -9,79 +13,90 @@
 namespace grainfield::triaxial {
 namespace {
 
-TomlValue read_root(const std::optional<std::filesystem::path>& file,
-                    std::span<const std::string> overrides) {
-    TomlValue root{TomlValue::Table{}, {}};
+toml::table read_root(const std::optional<std::filesystem::path>& file,
+                      std::span<const std::string> overrides) {
+    toml::table root;
     if (file) root = read_toml_file(*file);
-    for (const std::string& setting : overrides) merge(root, parse_override(setting));
+    for (const std::string& setting : overrides) put_override(root, setting);
     return root;
 }
 
-/// A file named in a config is looked for beside it, one of --set in the current folder; the whole
-/// path is kept, so that a resolved config means the same file wherever it is read.
-std::string located_file(const std::string& name, const TomlValue& value,
-                         const std::string& source) {
-    const bool in_file = !source.empty() && value.origin.starts_with(source);
-    const auto folder = in_file ? std::filesystem::path(source).parent_path() : "";
-    return std::filesystem::absolute(folder / name).lexically_normal().string();
-}
-
-/// The config of a tree, and the cases of its campaign.
-Config read_config(const TomlValue& root, const std::string& source, std::vector<CaseKeys>& cases) {
-    TomlReader reader(root, source);
-    Config config;
-    for (const ConfigKey& key : config_keys(config)) reader.read(key);
-    if (const TomlValue* data = reader.take("field.data"))
-        config.field.data = located_file(config.field.data, *data, source);
-    cases = read_campaign(reader);
-    reader.finish();
-    try {
-        config.validate();
-    } catch (const InputError& error) {
-        throw reader.located(error);
+/// A document read as a config, and the cases of its campaign.
+class ConfigReader {
+  public:
+    /// source: name of the file; empty: there is none.
+    ConfigReader(toml::table root, const std::string& source)
+        : root_(std::move(root)), source_(source), reader_(root_, source) {
+        for (const ConfigKey& key : config_keys(config_)) reader_.read(key);
+        if (const toml::node* data = reader_.take("field.data"))
+            config_.field.data = located_file(config_.field.data, *data);
+        cases_ = read_campaign(reader_);
+        reader_.finish();
+        validate(config_, {});
     }
-    return config;
-}
 
-/// A value under a dotted path as nested tables.
-TomlValue nested(std::string_view path, const TomlValue& value) {
-    const auto dot = path.find('.');
-    TomlValue inner = dot == std::string_view::npos ? value : nested(path.substr(dot + 1), value);
-    TomlValue::Table table{{std::string(path.substr(0, dot)), std::move(inner)}};
-    return {std::move(table), value.origin};
-}
+    const Config& config() const { return config_; }
+
+    std::vector<CampaignCase> campaign() const {
+        std::vector<CampaignCase> campaign;
+        for (const CaseKeys& keys : cases_) try {
+                campaign.push_back({keys.name, case_config(keys.values)});
+            } catch (const InputError& error) {
+                throw InputError(fmt::format("case \"{}\": {}", keys.name, error.what()));
+            }
+        return campaign;
+    }
+
+  private:
+    /// The config with the values of a case over it.
+    Config case_config(const TomlLeaves& values) const {
+        Config config = config_;
+        const Keys keys = config_keys(config);
+        for (const auto& [path, value] : values) {
+            std::ignore = std::ranges::find(keys, path, &ConfigKey::path)->slot.set(*value);
+            if (path == "field.data") config.field.data = located_file(config.field.data, *value);
+        }
+        validate(config, values);
+        return config;
+    }
+
+    void validate(const Config& config, const TomlLeaves& over) const {
+        try {
+            config.validate();
+        } catch (const InputError& error) {
+            throw reader_.located(error, over);
+        }
+    }
+
+    /// A file named in a config is looked for beside it, one of --set in the current folder; the
+    /// whole path is kept, so that a resolved config means the same file wherever it is read.
+    std::string located_file(const std::string& name, const toml::node& value) const {
+        const bool in_file = !source_.empty() && origin_of(value).starts_with(source_);
+        const auto folder = in_file ? std::filesystem::path(source_).parent_path() : "";
+        return std::filesystem::absolute(folder / name).lexically_normal().string();
+    }
+
+    toml::table root_;
+    std::string source_;
+    TomlReader reader_;
+    Config config_;
+    std::vector<CaseKeys> cases_;
+};
 
 }  // namespace
 
 Config load_config(const std::optional<std::filesystem::path>& file,
                    std::span<const std::string> overrides) {
-    std::vector<CaseKeys> cases;
-    return read_config(read_root(file, overrides), file ? file->string() : "", cases);
+    return ConfigReader(read_root(file, overrides), file ? file->string() : "").config();
 }
 
 Config parse_config(std::string_view text, const std::string& source) {
-    std::vector<CaseKeys> cases;
-    return read_config(parse_toml(text, source), source, cases);
+    return ConfigReader(parse_toml(text, source), source).config();
 }
 
 std::vector<CampaignCase> load_campaign(const std::optional<std::filesystem::path>& file,
                                         std::span<const std::string> overrides) {
-    const TomlValue root = read_root(file, overrides);
-    const std::string source = file ? file->string() : "";
-    std::vector<CaseKeys> cases, ignored;
-    const Config base = read_config(root, source, cases);
-    std::vector<CampaignCase> campaign;
-    for (const CaseKeys& keys : cases) {
-        TomlValue tree = root;
-        for (const auto& [path, value] : keys.values) merge(tree, nested(path, value));
-        try {
-            campaign.push_back({keys.name, read_config(tree, source, ignored)});
-        } catch (const InputError& error) {
-            throw InputError(fmt::format("case \"{}\": {}", keys.name, error.what()));
-        }
-        campaign.back().config.montecarlo = base.montecarlo;
-    }
-    return campaign;
+    return ConfigReader(read_root(file, overrides), file ? file->string() : "").campaign();
 }
 
 }  // namespace grainfield::triaxial

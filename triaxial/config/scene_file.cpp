@@ -1,5 +1,7 @@
 #include "triaxial/config/scene_file.hpp"
 
+#include <toml++/toml.h>
+
 #include <algorithm>
 
 #include "triaxial/config/config_keys.hpp"
@@ -8,7 +10,7 @@
 namespace grainfield::triaxial {
 namespace {
 
-SceneWall read_wall(const TomlValue& table, double particles_stiffness) {
+SceneWall read_wall(const toml::table& table, double particles_stiffness) {
     TomlReader reader(table, "", "wall.");
     SceneWall wall;
     wall.normal_stiffness = particles_stiffness;
@@ -24,7 +26,7 @@ SceneWall read_wall(const TomlValue& table, double particles_stiffness) {
         reader.refuse("stress", "a wall has either a velocity or a stress, not both");
     const double length = wall.normal.stableNorm();  // no overflow: 1e200 is a fine length
     if (!(length > 0))
-        throw reader.wrong_value("normal", *table.find("normal"), "a vector that is not zero");
+        throw reader.wrong_value("normal", *table.get("normal"), "a vector that is not zero");
     wall.normal /= length;
     wall.normal.normalize();  // a subnormal length has few digits
     return wall;
@@ -32,17 +34,18 @@ SceneWall read_wall(const TomlValue& table, double particles_stiffness) {
 
 std::vector<SceneWall> read_walls(TomlReader& reader, double particles_stiffness) {
     std::vector<SceneWall> walls;
-    const TomlValue* value = reader.take("wall");
+    const toml::node* value = reader.take("wall");
     if (value == nullptr) return walls;
-    const auto* array = std::get_if<TomlValue::Array>(&value->data);
-    const auto is_table = [](const TomlValue& one) { return one.is_table(); };
+    const toml::array* array = value->as_array();
+    const auto is_table = [](const toml::node& one) { return one.is_table(); };
     if (array == nullptr || !std::ranges::all_of(*array, is_table))
         throw reader.wrong_value("wall", *value, "an array of tables [[wall]]");
-    for (const TomlValue& one : *array) walls.push_back(read_wall(one, particles_stiffness));
+    for (const toml::node& one : *array)
+        walls.push_back(read_wall(*one.as_table(), particles_stiffness));
     return walls;
 }
 
-SceneFile read_scene(const TomlValue& root, const std::filesystem::path& file) {
+SceneFile read_scene(const toml::table& root, const std::filesystem::path& file) {
     SceneFile scene;
     core::TimeOptions time;
     Keys shared;
@@ -72,8 +75,8 @@ SceneFile read_scene(const TomlValue& root, const std::filesystem::path& file) {
 }  // namespace
 
 SceneFile load_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {
-    TomlValue root = read_toml_file(file);
-    for (const std::string& setting : overrides) merge(root, parse_override(setting));
+    toml::table root = read_toml_file(file);
+    for (const std::string& setting : overrides) put_override(root, setting);
     return read_scene(root, file);
 }
 

@@ -1,6 +1,7 @@
 #include "triaxial/config/toml_reader.hpp"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 
@@ -9,11 +10,11 @@
 
 namespace grainfield::triaxial {
 
-TomlReader::TomlReader(const TomlValue& root, std::string source, std::string prefix)
+TomlReader::TomlReader(const toml::table& root, std::string source, std::string prefix)
     : root_(root), source_(std::move(source)), prefix_(std::move(prefix)) {}
 
 void TomlReader::read(const ConfigKey& key) {
-    const TomlValue* value = take(key.path);
+    const toml::node* value = take(key.path);
     if (value != nullptr && !key.slot.set(*value))
         throw wrong_value(key.path, *value, key.slot.expected);
 }
@@ -22,27 +23,28 @@ void TomlReader::require(const ConfigKey& key) {
     read(key);
     if (!has(key.path))
         throw InputError(fmt::format("{}: {}{} is missing: {} is expected",
-                                     prefix_.empty() ? source_ : root_.origin, prefix_, key.path,
-                                     key.slot.expected));
+                                     prefix_.empty() ? source_ : origin_of(root_), prefix_,
+                                     key.path, key.slot.expected));
 }
 
-const TomlValue* TomlReader::take(std::string_view path) {
+const toml::node* TomlReader::take(std::string_view path) {
     know(path);
     return find(path);
 }
 
 void TomlReader::refuse(std::string_view path, std::string_view why) const {
-    if (const TomlValue* value = find(path))
-        throw InputError(fmt::format("{}: {}{} = {}: {}", value->origin, prefix_, path,
+    if (const toml::node* value = find(path))
+        throw InputError(fmt::format("{}: {}{} = {}: {}", origin_of(*value), prefix_, path,
                                      short_text(*value), why));
 }
 
-const TomlValue* TomlReader::find(std::string_view path) const {
-    const TomlValue* value = &root_;
+const toml::node* TomlReader::find(std::string_view path) const {
+    const toml::node* value = &root_;
     for (std::size_t begin = 0; value != nullptr && begin <= path.size();) {
-        if (!value->is_table()) throw wrong_value(path.substr(0, begin - 1), *value, "a table");
+        const toml::table* table = value->as_table();
+        if (table == nullptr) throw wrong_value(path.substr(0, begin - 1), *value, "a table");
         const std::size_t end = std::min(path.find('.', begin), path.size());
-        value = value->find(path.substr(begin, end - begin));
+        value = table->get(path.substr(begin, end - begin));
         begin = end + 1;
     }
     return value;
@@ -58,42 +60,47 @@ void TomlReader::finish() const {
     check_table(root_, "");
 }
 
-void TomlReader::check_table(const TomlValue& table, const std::string& path) const {
-    for (const auto& [key, value] : std::get<TomlValue::Table>(table.data)) {
+void TomlReader::check_table(const toml::table& table, const std::string& path) const {
+    for (const auto& [name, value] : table) {
+        const std::string key(name.str());
         const std::string before = path.empty() ? "" : path + ".";
         const std::string full = before + key_text(key);
         if (keys_.contains(full)) continue;
         if (tables_.contains(full)) {
-            check_table(value, full);
+            check_table(*value.as_table(), full);
             continue;
         }
         std::set<std::string> known = keys_;
         known.insert(tables_.begin(), tables_.end());
         const auto nearest = nearest_key(before + key, known);
         throw InputError(fmt::format(
-            "{}: {}{} is not a known key{}", value.origin, prefix_, full,
+            "{}: {}{} is not a known key{}", origin_of(value), prefix_, full,
             nearest ? fmt::format("; did you mean {}{}?", prefix_, *nearest) : std::string()));
     }
 }
 
-InputError TomlReader::located(const InputError& error) const {
+InputError TomlReader::located(const InputError& error, const TomlLeaves& over) const {
     const std::string_view what = error.what();
     const std::string name(what.substr(0, what.find_first_of(" [:=")));
     std::string place = source_;
+    const auto present = [&](const std::string& key) {
+        const auto top = std::ranges::find(over.rbegin(), over.rend(), key, &TomlLeaf::first);
+        return top != over.rend() ? top->second : find(key);
+    };
     if (keys_.contains(name)) {
         const std::string table = name.substr(0, name.rfind('.') + 1);
         // A value at odds with a default: then the key to blame is another one of that table.
         for (const std::string& key : keys_)
-            if (const TomlValue* value = key.starts_with(table) ? find(key) : nullptr)
-                place = value->origin;
-        if (const TomlValue* value = find(name)) place = value->origin;
+            if (const toml::node* value = key.starts_with(table) ? present(key) : nullptr)
+                place = origin_of(*value);
+        if (const toml::node* value = present(name)) place = origin_of(*value);
     }
     return InputError(place.empty() ? std::string(what) : fmt::format("{}: {}", place, what));
 }
 
-InputError TomlReader::wrong_value(std::string_view path, const TomlValue& value,
+InputError TomlReader::wrong_value(std::string_view path, const toml::node& value,
                                    std::string_view expected) const {
-    return InputError(fmt::format("{}: {}{} = {}: {} is expected", value.origin, prefix_, path,
+    return InputError(fmt::format("{}: {}{} = {}: {} is expected", origin_of(value), prefix_, path,
                                   short_text(value), expected));
 }
 

@@ -1,6 +1,7 @@
 #include "triaxial/config/toml_text.hpp"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cctype>
@@ -25,27 +26,6 @@ std::string without_padding(std::string scientific) {
     exponent.erase(0, std::min(exponent.find_first_not_of('0'), exponent.size() - 1));
     return scientific.substr(0, e + 1) + (negative ? "-" : "") + exponent;
 }
-
-struct TextOf {
-    std::string operator()(std::monostate) const { return "a date"; }
-    std::string operator()(bool truth) const { return truth ? "true" : "false"; }
-    std::string operator()(std::int64_t whole) const { return fmt::format("{}", whole); }
-    std::string operator()(double number) const { return number_text(number); }
-    std::string operator()(const std::string& text) const { return toml_string(text); }
-    std::string operator()(const TomlValue::Array& array) const {
-        std::string text;
-        for (const TomlValue& element : array)
-            text += (text.empty() ? "" : ", ") + toml_text(element);
-        return "[" + text + "]";
-    }
-    std::string operator()(const TomlValue::Table& table) const {
-        std::string text;
-        for (const TomlEntry& entry : table)
-            text +=
-                (text.empty() ? " " : ", ") + key_text(entry.key) + " = " + toml_text(entry.value);
-        return "{" + text + (text.empty() ? "}" : " }");
-    }
-};
 
 }  // namespace
 
@@ -76,11 +56,27 @@ std::string number_text(double value) {
     return too_large || scientific.size() < fixed.size() ? scientific : fixed;
 }
 
-std::string toml_text(const TomlValue& value) {
-    return std::visit(TextOf{}, value.data);
+std::string toml_text(const toml::node& value) {
+    std::string text;
+    if (const toml::table* table = value.as_table()) {
+        for (const auto& [key, entry] : *table)
+            text += fmt::format("{} {} = {}", text.empty() ? "" : ",", key_text(key.str()),
+                                toml_text(entry));
+        return "{" + text + (text.empty() ? "}" : " }");
+    }
+    if (const toml::array* array = value.as_array()) {
+        for (const toml::node& element : *array)
+            text += (text.empty() ? "" : ", ") + toml_text(element);
+        return "[" + text + "]";
+    }
+    if (const auto* truth = value.as_boolean()) return truth->get() ? "true" : "false";
+    if (const auto* whole = value.as_integer()) return fmt::format("{}", whole->get());
+    if (const auto* number = value.as_floating_point()) return number_text(number->get());
+    if (const auto* string = value.as_string()) return toml_string(string->get());
+    return "a date";
 }
 
-std::string short_text(const TomlValue& value) {
+std::string short_text(const toml::node& value) {
     constexpr std::size_t longest = 80;
     std::string text = toml_text(value);
     if (text.size() <= longest) return text;

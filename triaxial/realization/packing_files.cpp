@@ -1,6 +1,9 @@
 #include "triaxial/realization/packing_files.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "core/files/atomic_file.hpp"
+#include "core/files/json_text.hpp"
 #include "core/files/sphere_file.hpp"
 
 namespace grainfield::triaxial {
@@ -95,11 +98,11 @@ void write_packing(const std::filesystem::path& path, const packing::Packing& p,
     file.box = p.box;
     file.has_normal_stiffness = file.has_friction_angle = file.has_block = true;
     file.kind = "packing";
-    file.attributes = {
-        {"porosity", p.porosity},
-        {"seed", p.options.seed},
-        {"blocks", p.options.blocks},
-        {"block_m", {p.options.block.x(), p.options.block.y(), p.options.block.z()}}};
+    file.attributes = core::json_text(
+        {{"porosity", p.porosity},
+         {"seed", p.options.seed},
+         {"blocks", p.options.blocks},
+         {"block_m", {p.options.block.x(), p.options.block.y(), p.options.block.z()}}});
     core::write_spheres(path, file);
     core::write_file_atomically(json_beside(path), packing_json(p, wall_seconds).dump(2) + "\n");
 }

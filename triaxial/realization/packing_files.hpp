@@ -2,7 +2,7 @@
 // A packing as files: P.h5 with the spheres and P.json with what is known about them.
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "packing/pack.hpp"
 #include "triaxial/config/config.hpp"

@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "core/files/energy_csv.hpp"
+#include "core/files/json_text.hpp"
 #include "core/files/sphere_file.hpp"
 
 namespace grainfield::triaxial {
@@ -138,10 +140,10 @@ void write_state(const std::filesystem::path& path, const core::Simulation& simu
     if (walls.size() >= 6)
         file.box = core::Box{Vec3(walls[0].point.x(), walls[2].point.y(), walls[4].point.z()),
                              Vec3(walls[1].point.x(), walls[3].point.y(), walls[5].point.z())};
-    file.attributes = {{"time_s", simulation.time()},
-                       {"steps", simulation.steps()},
-                       {"last_step_s", simulation.last_step()},
-                       {"state_hash", simulation.state_hash()}};
+    file.attributes = core::json_text({{"time_s", simulation.time()},
+                                       {"steps", simulation.steps()},
+                                       {"last_step_s", simulation.last_step()},
+                                       {"state_hash", simulation.state_hash()}});
     // Touching contacts: i, j (or -1 - wall) and the shear force on i.
     core::ExtraArray contacts;
     for (const core::TouchingContact& c : simulation.touching())

@@ -2,7 +2,7 @@
 // The files of a triaxial run (docs/interface.md): summary.json, curve.csv, energy.csv, state.h5.
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "core/simulation.hpp"
 #include "triaxial/realization/sample.hpp"

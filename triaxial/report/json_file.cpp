@@ -1,6 +1,7 @@
 #include "triaxial/report/json_file.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/base/errors.hpp"
 #include "core/files/text_file.hpp"
@@ -12,17 +13,17 @@ using nlohmann::ordered_json;
 JsonFile::JsonFile(std::filesystem::path path) : path_(std::move(path)) {
     const std::string text = core::read_whole_file(path_);
     try {
-        root_ = ordered_json::parse(text);
+        root_ = std::make_shared<const ordered_json>(ordered_json::parse(text));
     } catch (const ordered_json::exception& e) {
         throw FileError(fmt::format("{}: not valid JSON: {}", path_.string(), e.what()));
     }
-    if (!root_.is_object())
+    if (!root_->is_object())
         throw FileError(fmt::format("{}: must hold one JSON object, not {}", path_.string(),
-                                    root_.type_name()));
+                                    root_->type_name()));
 }
 
 const ordered_json* JsonFile::find(std::string_view key) const {
-    const ordered_json* node = &root_;
+    const ordered_json* node = root_.get();
     for (std::size_t begin = 0; begin <= key.size();) {
         const std::size_t end = std::min(key.find('.', begin), key.size());
         if (!node->is_object()) return nullptr;
@@ -93,14 +94,13 @@ std::vector<std::string> JsonFile::texts(std::string_view key) const {
     return texts;
 }
 
-std::vector<std::pair<std::string, nlohmann::ordered_json>> JsonFile::members(
-    std::string_view key) const {
+std::vector<std::pair<std::string, JsonFile>> JsonFile::members(std::string_view key) const {
     const nlohmann::ordered_json* value = find(key);
     if (value == nullptr || !value->is_object()) fail(key, "an object is expected");
-    std::vector<std::pair<std::string, nlohmann::ordered_json>> entries;
+    std::vector<std::pair<std::string, JsonFile>> entries;
     for (const auto& [name, entry] : value->items()) {
         if (!entry.is_object()) fail(key, "its entries must be objects");
-        entries.emplace_back(name, entry);
+        entries.emplace_back(name, JsonFile(path_, Node(root_, &entry)));
     }
     return entries;
 }
@@ -116,7 +116,7 @@ std::vector<std::pair<std::string, std::string>> JsonFile::flattened() const {
             leaves.emplace_back(prefix, node.is_string() ? node.get<std::string>() : node.dump());
         }
     };
-    walk(walk, "", root_);
+    walk(walk, "", *root_);
     return leaves;
 }
 

@@ -2,7 +2,8 @@
 // A JSON file with typed access whose errors name the file and the key.
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,8 +26,8 @@ class JsonFile {
     std::vector<double> numbers(std::string_view key) const;
     /// The texts of an array; none where there is no such key.
     std::vector<std::string> texts(std::string_view key) const;
-    /// Entries of an object, in the order of the file; FileError where there is none.
-    std::vector<std::pair<std::string, nlohmann::ordered_json>> members(std::string_view key) const;
+    /// The objects in an object, in the order of the file; FileError where there is none.
+    std::vector<std::pair<std::string, JsonFile>> members(std::string_view key) const;
     bool has(std::string_view key) const { return find(key) != nullptr; }
 
     /// Every leaf as (dotted key, value as text), in the order of the file; null is "null".
@@ -35,11 +36,14 @@ class JsonFile {
     const std::filesystem::path& path() const { return path_; }
 
   private:
+    using Node = std::shared_ptr<const nlohmann::ordered_json>;
+    JsonFile(std::filesystem::path path, Node root)
+        : path_(std::move(path)), root_(std::move(root)) {}
     const nlohmann::ordered_json* find(std::string_view key) const;
     [[noreturn]] void fail(std::string_view key, std::string_view problem) const;
 
     std::filesystem::path path_;
-    nlohmann::ordered_json root_;
+    Node root_;
 };
 
 }  // namespace grainfield::triaxial::report

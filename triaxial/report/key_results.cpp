@@ -9,7 +9,7 @@
 namespace grainfield::triaxial::report {
 namespace {
 
-std::string degrees(double radians) {
+std::string degrees_text(double radians) {
     return significant(radians * 180 / std::numbers::pi);
 }
 std::string percent(double share, int digits = 3) {
@@ -62,7 +62,7 @@ Table results_table(const RunFolder& run) {
           r.peak_found ? chaos : "the run ended while <i>q</i> still rose; " + chaos);
     b.row("Axial strain there", percent(r.axial_strain_at_peak));
     b.row("Secant modulus <i>E</i><sub>50</sub>", significant(1e-6 * r.E50) + " MPa");
-    b.row("Macroscopic friction angle φ", degrees(r.friction_angle) + "°",
+    b.row("Macroscopic friction angle φ", degrees_text(r.friction_angle) + "°",
           significant(r.friction_angle) + " rad");
     b.row("Confining stress σ<sub>3</sub>", significant(1e-3 * r.confining_stress) + " kPa");
     b.text("end_reason", "The run ended because");
@@ -167,7 +167,7 @@ std::string outcome(const RunFolder& run) {
         significant(1e-3 * r.confining_stress),
         r.peak_found ? "peaks at" : "still hardens when the run ends, having reached",
         significant(1e-3 * r.peak_deviator_stress), percent(r.axial_strain_at_peak),
-        significant(1e-6 * r.E50), degrees(r.friction_angle));
+        significant(1e-6 * r.E50), degrees_text(r.friction_angle));
 }
 
 }  // namespace grainfield::triaxial::report

@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <toml++/toml.h>
-
 #include <array>
+#include <tuple>
 
 #include "core/base/errors.hpp"
 #include "core/files/energy_csv.hpp"
 #include "core/files/sphere_file.hpp"
 #include "core/files/text_file.hpp"
+#include "triaxial/config/toml_file.hpp"
 #include "triaxial/report/number_table.hpp"
 
 namespace grainfield::triaxial::report {
@@ -37,10 +37,9 @@ KeyResults key_results(const JsonFile& summary) {
 std::string config_text(const std::filesystem::path& path) {
     std::string text = core::read_whole_file(path);
     try {
-        (void)toml::parse(text);
-    } catch (const toml::parse_error& e) {
-        throw FileError(
-            fmt::format("{}:{}: {}", path.string(), e.source().begin.line, e.description()));
+        std::ignore = leaf_texts(text, path.string());
+    } catch (const InputError& error) {  // it names file, line and column
+        throw FileError(error.what());
     }
     return text;
 }

@@ -5,6 +5,7 @@
 
 #include "core/files/energy_csv.hpp"
 #include "core/files/folder.hpp"
+#include "core/files/json_text.hpp"
 #include "core/files/sphere_file.hpp"
 #include "triaxial/scene/contact_table.hpp"
 
@@ -103,7 +104,8 @@ fs::path save_state(const core::Simulation& simulation, const fs::path& folder) 
     file.spheres = simulation.spheres();
     file.kind = "state";
     file.has_normal_stiffness = file.has_friction_angle = file.has_velocity = true;
-    file.attributes = {{"time_s", simulation.time()}, {"steps", simulation.steps()}};
+    file.attributes =
+        core::json_text({{"time_s", simulation.time()}, {"steps", simulation.steps()}});
     core::ExtraArray walls{{simulation.walls().size(), 9}, {}};
     for (const core::Wall& wall : simulation.walls())
         for (const Vec3& v : {wall.point, wall.normal, wall.velocity})

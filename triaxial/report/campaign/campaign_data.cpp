@@ -7,8 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/files/text_file.hpp"
-#include "triaxial/config/toml_text.hpp"
-#include "triaxial/config/toml_value.hpp"
+#include "triaxial/config/toml_file.hpp"
 #include "triaxial/report/json_file.hpp"
 
 namespace grainfield::triaxial::report {
@@ -69,11 +68,9 @@ CampaignData read_campaign_data(const fs::path& folder) {
         CaseData& made = data.cases.emplace_back();
         index[name] = data.cases.size() - 1;
         made.name = name;
-        made.kernels = one.value("kernels", "");
-        made.config = one.value("config", "");
-        for (const TomlEntry& leaf :
-             leaves(parse_toml(made.config, (folder / "campaign.json").string())))
-            made.values[leaf.key] = toml_text(leaf.value);
+        made.kernels = one.optional_text("kernels").value_or("");
+        made.config = one.optional_text("config").value_or("");
+        made.values = leaf_texts(made.config, (folder / "campaign.json").string());
     }
     const auto place = [&](const triaxial::Row& row) -> CaseData& {
         const auto at = index.find(row.case_name);

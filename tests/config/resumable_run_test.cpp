@@ -1,10 +1,11 @@
 // Going on from a checkpoint: with its config and kernels, or a message that says what differs.
 
-#include "triaxial/cli/kept_run.hpp"
+#include "triaxial/cli/resumable_run.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "tests/message_of.hpp"
@@ -22,10 +23,11 @@ using Settings = std::vector<std::string>;
 core::FoundCheckpoint checkpoint_of(const Settings& settings) {
     core::FoundCheckpoint found;
     found.file = "run/checkpoint.bin";
-    found.identity = {{"command", "triaxial"},
-                      {"isa", "avx2"},
-                      {"precision", "mixed"},
-                      {"config", write_config(load_config(std::nullopt, settings))}};
+    const nlohmann::json identity = {{"command", "triaxial"},
+                                     {"isa", "avx2"},
+                                     {"precision", "mixed"},
+                                     {"config", write_config(load_config(std::nullopt, settings))}};
+    found.identity = identity.dump();
     return found;
 }
 

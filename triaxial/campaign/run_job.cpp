@@ -1,4 +1,4 @@
-#include "triaxial/campaign/run_work.hpp"
+#include "triaxial/campaign/run_job.hpp"
 
 #include <chrono>
 #include <mutex>
@@ -44,15 +44,15 @@ void draw_field(const Config& config, std::int64_t realization, Sample& sample) 
 
 }  // namespace
 
-Row run_work(const Work& work, const Starts& starts, const std::filesystem::path& failed_state,
-             const std::atomic<bool>& stop) {
+Row run_job(const Job& job, const Starts& starts, const std::filesystem::path& failed_state,
+            const std::atomic<bool>& stop) {
     const auto begin = std::chrono::steady_clock::now();
     RunMonitor monitor(stop, failed_state);
-    const Config& config = *work.config;
+    const Config& config = job.inputs->config;
     Row row;
     try {
-        Sample sample = starts.of(config);
-        draw_field(config, work.realization, sample);
+        Sample sample = starts.of(*job.start);
+        draw_field(config, job.realization, sample);
         core::Simulation simulation =
             make_simulation(std::move(sample), config, core::choose_kernels(config.solver),
                             "the start of the campaign");

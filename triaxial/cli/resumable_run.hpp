@@ -1,9 +1,8 @@
 #pragma once
-// Runs that outlive what befalls them: checkpoints, --resume, and the state of one that failed.
+// Runs with checkpoints: their options, --resume, and the state of one that failed.
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,16 +11,17 @@
 #include "core/base/monitor.hpp"
 #include "core/solver_options.hpp"
 #include "core/state/checkpoint.hpp"
+#include "triaxial/cli/argument_parser.hpp"
 #include "triaxial/config/config.hpp"
 
 namespace grainfield::triaxial {
 
 /// The options of a subcommand whose runs can be resumed.
-struct KeepingArguments {
+struct CheckpointArguments {
     bool resume = false;
     double every = 60;  ///< between two checkpoints; 0: only when the run is interrupted [s]
 
-    void add_to(CLI::App& command);
+    void add_to(ArgumentParser& command);
     /// With --resume the checkpoint that a run left in `file`; damaged ones are told to the
     /// monitor. Nothing where there is none: the run begins anew, and the monitor is told. Throws
     /// FileError where none of those that are there can be used.
@@ -42,9 +42,10 @@ core::SolverOptions resumed_solver(const core::FoundCheckpoint& found, const std
 
 /// Passes everything on to another monitor; when a simulation breaks, its state is written first.
 /// What leaves run() names the file of the state, or the checkpoint to go on from.
-class KeptRun : public core::Monitor {
+class ResumableRun : public core::Monitor {
   public:
-    KeptRun(core::Monitor& inner, std::filesystem::path state, const core::Checkpoint& checkpoint)
+    ResumableRun(core::Monitor& inner, std::filesystem::path state,
+                 const core::Checkpoint& checkpoint)
         : inner_(inner), state_(std::move(state)), checkpoint_(checkpoint) {}
 
     void begin(std::string_view stage) override { inner_.begin(stage); }
@@ -55,10 +56,10 @@ class KeptRun : public core::Monitor {
     bool stop_requested() const override { return inner_.stop_requested(); }
     void ended_early(const core::Simulation& simulation) override;
 
-    template <class Work>
-    auto run(const Work& work) {
+    template <class Task>
+    auto run(const Task& task) {
         try {
-            return work();
+            return task();
         } catch (const SimulationError& error) {
             throw SimulationError(error.what() + failure_text());
         } catch (const Interrupted& error) {
@@ -73,7 +74,7 @@ class KeptRun : public core::Monitor {
     core::Monitor& inner_;
     std::filesystem::path state_;
     const core::Checkpoint& checkpoint_;
-    bool kept_ = false;
+    bool state_written_ = false;
 };
 
 }  // namespace grainfield::triaxial

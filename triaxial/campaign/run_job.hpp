@@ -1,5 +1,5 @@
 #pragma once
-// One run of a campaign.
+// One job of a campaign: a run.
 
 #include <atomic>
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace grainfield::triaxial {
 /// or has no start, returns a row that says why and leaves its state in `failed_state`. The row's
 /// case and realization are left to the caller. Throws Interrupted once `stop` is true, and what
 /// has nothing to do with this run alone (files, memory).
-Row run_work(const Work& work, const Starts& starts, const std::filesystem::path& failed_state,
-             const std::atomic<bool>& stop);
+Row run_job(const Job& job, const Starts& starts, const std::filesystem::path& failed_state,
+            const std::atomic<bool>& stop);
 
 }  // namespace grainfield::triaxial

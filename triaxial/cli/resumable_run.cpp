@@ -1,7 +1,8 @@
-#include "triaxial/cli/kept_run.hpp"
+#include "triaxial/cli/resumable_run.hpp"
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/kernel_choice.hpp"
@@ -27,18 +28,18 @@ std::string first_difference(const std::string& here, const std::string& there) 
 
 }  // namespace
 
-void KeepingArguments::add_to(CLI::App& command) {
+void CheckpointArguments::add_to(ArgumentParser& command) {
     command.add_flag("--resume", resume,
                      "Go on from the checkpoint that an interrupted run left; ends with the same "
                      "bits as if it had not been interrupted");
     command
-        .add_option("--checkpoint-every", every,
-                    "Seconds between two checkpoints, 60 unless given; 0: only on SIGINT, SIGTERM")
-        ->check(CLI::Range(0.0, 1e9));
+        .add("--checkpoint-every", every,
+             "Seconds between two checkpoints, 60 unless given; 0: only on SIGINT, SIGTERM")
+        .range(0.0, 1e9);
 }
 
-std::optional<core::FoundCheckpoint> KeepingArguments::find(const std::filesystem::path& file,
-                                                            core::Monitor& monitor) const {
+std::optional<core::FoundCheckpoint> CheckpointArguments::find(const std::filesystem::path& file,
+                                                               core::Monitor& monitor) const {
     if (!resume) return std::nullopt;
     std::optional<core::FoundCheckpoint> found = core::find_checkpoint(file);
     if (!found) {
@@ -57,18 +58,19 @@ nlohmann::json run_identity(const std::string& command, const core::SolverOption
 
 core::SolverOptions resumed_solver(const core::FoundCheckpoint& found, const std::string& command,
                                    core::SolverOptions solver) {
-    if (found.identity.at("command") != command)
+    const auto identity = nlohmann::json::parse(found.identity);
+    if (identity.at("command") != command)
         throw InputError(fmt::format("--resume: {} is a checkpoint of `{}`", found.file.string(),
-                                     found.identity.at("command").get<std::string>()));
+                                     identity.at("command").get<std::string>()));
     // What "auto" meant where the run began.
     if (solver.isa == core::Isa::automatic)
-        solver.isa = core::isa_of(found.identity.at("isa").get<std::string>());
+        solver.isa = core::isa_of(identity.at("isa").get<std::string>());
     return solver;
 }
 
 Config resumed_config(const core::FoundCheckpoint& found, const std::optional<std::string>& file,
                       std::span<const std::string> settings) {
-    const std::string text = found.identity.at("config");
+    const std::string text = nlohmann::json::parse(found.identity).at("config");
     if (file || !settings.empty()) {
         const std::string here = write_config(load_config(file, settings));
         if (here != text)
@@ -80,20 +82,20 @@ Config resumed_config(const core::FoundCheckpoint& found, const std::optional<st
     return parse_config(text, found.file.string());
 }
 
-void KeptRun::ended_early(const core::Simulation& simulation) {
+void ResumableRun::ended_early(const core::Simulation& simulation) {
     write_state(state_, simulation);
-    kept_ = true;
+    state_written_ = true;
 }
 
-std::string KeptRun::failure_text() const {
+std::string ResumableRun::failure_text() const {
     std::string text;
-    if (kept_) text = fmt::format("; the state is in {}", state_.string());
+    if (state_written_) text = fmt::format("; the state is in {}", state_.string());
     if (std::filesystem::exists(checkpoint_.file()))
         text += fmt::format("; the last checkpoint is {}", checkpoint_.file().string());
     return text;
 }
 
-std::string KeptRun::interruption_text() const {
+std::string ResumableRun::interruption_text() const {
     return fmt::format("; the checkpoint is {}: the same command with --resume goes on from it",
                        checkpoint_.file().string());
 }
