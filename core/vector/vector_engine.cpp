@@ -201,7 +201,7 @@ template <class T>
 void VectorEngine<T>::use_loads(Domain<T>& domain, const Aligned<kernels::SphereLoad<T>>& loads,
                                 const Pass& pass, const kernels::MoveParameters<T>& motion) {
     if (pass.use == Pass::motion) {
-        const auto move = kernels_.move[kernels::variant(world_.motion_features())];
+        const auto move = kernels_.spheres.move(world_.motion_features());
         domain.motion = move(domain.records.data(), loads.data(), domain.columns(built_.position),
                              motion, domain.ghost_begin());
         return;
@@ -238,23 +238,23 @@ void VectorEngine<T>::find_forces(Domain<T>& domain, const Domain<T>* coming, co
     scratch.loads.assign(domain.records.size(), {});
     kernels::PairParameters<T> parameters = pair_parameters();
     parameters.counted = static_cast<std::int32_t>(domain.own) * kernels::record_stride<T>;
-    const auto variant = [&](bool friction) {
+    const auto kernel = [&](const auto& kernels, bool friction) {
         const kernels::ContactFeatures features{friction, world_.per_sphere, pass.sums};
-        return pass.again ? kernels::variant_again(features) : kernels::variant(features);
+        return pass.again ? kernels.replay(features) : kernels.compute(features);
     };
     kernels::Candidates<T> candidates = domain.pairs.view(most_used_, scratch.touching);
     if (coming != nullptr) {
         candidates.coming = reinterpret_cast<const char*>(coming->records.data());
         candidates.coming_bytes = coming->records.size() * sizeof(kernels::SphereRecord<T>);
     }
-    kernels::PassResult result = kernels_.pairs[variant(world_.has_friction)](
+    kernels::PassResult result = kernel(kernels_.pairs, world_.has_friction)(
         domain.records.data(), candidates, scratch.loads.data(), parameters);
     std::vector<kernels::WallLoad>& wall_loads =
         pass.again ? scratch.known_wall_loads : domain.wall_loads;
     wall_loads.assign(planes_.size(), {});
     for (WallList<T>& list : domain.walls) {
         const auto w = static_cast<std::size_t>(list.wall);
-        const kernels::PassResult of_wall = kernels_.wall[variant(world_.has_wall_friction)](
+        const kernels::PassResult of_wall = kernel(kernels_.walls, world_.has_wall_friction)(
             domain.records.data(), planes_[w], list.list.view(most_used_, scratch.touching),
             scratch.loads.data(), parameters, wall_loads[w]);
         result.sums += of_wall.sums;
