@@ -155,9 +155,9 @@ std::string leave_alone(const core::Simulation& still, const std::string& name,
         now = state(simulation);
         change = now.stress / start.stress - 1;
         csv += fmt::format("{},{},{},{},{:.5g},{},{:.4g},{:.6g},{:.8g},{:.4g},{:.4g},{}\n", name,
-                           kernels.name, kernels.table->isa, alpha, step, simulation.steps(),
-                           now.kinetic, now.elastic, now.stress, change, drift(start, now, spheres),
-                           now.contacts);
+                           kernels.name, kernels::name(kernels.table->isa), alpha, step,
+                           simulation.steps(), now.kinetic, now.elastic, now.stress, change,
+                           drift(start, now, spheres), now.contacts);
         if (simulation.steps() > 0)
             points += fmt::format("{} {} {}\n", simulation.steps(),
                                   std::max(1e-30, now.kinetic) / start.elastic,

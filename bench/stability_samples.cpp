@@ -11,13 +11,13 @@
 namespace grainfield::bench {
 
 const kernels::KernelTable& double_kernels() {
-    return core::choose_kernels({core::Precision::double_, core::Isa::automatic});
+    return core::choose_kernels({.precision = core::Precision::double_});
 }
 
 std::vector<NamedKernels> compared_kernels() {
     return {{"reference", &kernels::reference_kernels()},
             {"double", &double_kernels()},
-            {"mixed", &core::choose_kernels({core::Precision::mixed, core::Isa::automatic})}};
+            {"mixed", &core::choose_kernels({.precision = core::Precision::mixed})}};
 }
 
 void say(std::string_view line) {

@@ -97,7 +97,8 @@ const bool registered = [] {
             for (const auto* table : {kernels::double_table(isa), kernels::mixed_table(isa)})
                 tables.push_back(table);
     for (const auto* table : tables) {
-        const std::string name = std::string("/") + (table->reference ? "reference" : table->isa) +
+        const std::string name = std::string("/") +
+                                 (table->reference ? "reference" : kernels::name(table->isa)) +
                                  "/" + table->precision;
         const auto add = [&](const std::string& stage, auto run) {
             benchmark::RegisterBenchmark((stage + name).c_str(), run)

@@ -141,7 +141,7 @@ Measured measure(std::vector<Case>& cases, int rounds, int steps, double triad,
 Case make_case(const std::string& name, const core::Scene& scene,
                const kernels::KernelTable& kernels, int threads) {
     return {name,
-            kernels.isa,
+            kernels::name(kernels.isa),
             kernels.precision,
             threads,
             std::make_unique<ShearedSample>(scene, kernels, threads),
@@ -189,8 +189,8 @@ void at_rest(const core::Scene& full) {
     };
     steps(20);
     const double ms = 1e3 * steps(200) / 200;
-    fmt::print("Grainfield  {:8.2f} ms a step ({}, {}), {:.0f} B a sphere\n", ms, best().isa,
-               best().precision,
+    fmt::print("Grainfield  {:8.2f} ms a step ({}, {}), {:.0f} B a sphere\n", ms,
+               kernels::name(best().isa), best().precision,
                static_cast<double>(bench::bytes_in_use() - before) /
                    static_cast<double>(full.spheres.size()));
 }
@@ -239,7 +239,8 @@ int main(int argc, char** argv) {
         const double triad = bench::triad_bandwidth(std::size_t{24} << 20);
         fmt::print("{}, triad over 24 MB: {:.1f} GB/s\n", bench::cpu_name(), triad / 1e9);
         const core::Scene full = bench::full_sample(sample);
-        const std::filesystem::path folder = out / (bench::cpu_name() + "-" + best().isa);
+        const std::filesystem::path folder =
+            out / (bench::cpu_name() + "-" + kernels::name(best().isa));
         std::filesystem::create_directories(folder);
         step_rates(full, folder, rounds, triad);
         if (large) sizes(full, folder, rounds, triad);

@@ -15,7 +15,7 @@ namespace {
 
 std::string kind(const kernels::KernelTable& table) {
     return fmt::format("{}kernels for solver.isa = \"{}\", solver.precision = \"{}\"",
-                       table.reference != nullptr ? "the reference " : "", table.isa,
+                       table.reference != nullptr ? "the reference " : "", kernels::name(table.isa),
                        table.precision);
 }
 

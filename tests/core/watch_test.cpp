@@ -56,7 +56,7 @@ std::string failure(Scene scene, const kernels::KernelTable& table, const std::s
         EXPECT_NE(what.find("sphere " + sphere), std::string::npos) << what;
         reliability::record(
             "diagnoses",
-            {{"kernels", table.isa},
+            {{"kernels", kernels::name(table.isa)},
              {"steps", std::to_string(sim.steps() > 10 ? sim.steps() - 10 : sim.steps())},
              {"message", what}});
         return what;

@@ -52,7 +52,9 @@ std::optional<core::FoundCheckpoint> KeepingArguments::find(const std::filesyste
 
 nlohmann::json run_identity(const std::string& command, const core::SolverOptions& solver) {
     const kernels::KernelTable& kernels = core::choose_kernels(solver);
-    return {{"command", command}, {"isa", kernels.isa}, {"precision", kernels.precision}};
+    return {{"command", command},
+            {"isa", kernels::name(kernels.isa)},
+            {"precision", kernels.precision}};
 }
 
 core::SolverOptions resumed_solver(const core::FoundCheckpoint& found, const std::string& command,
@@ -61,8 +63,8 @@ core::SolverOptions resumed_solver(const core::FoundCheckpoint& found, const std
         throw InputError(fmt::format("--resume: {} is a checkpoint of `{}`", found.file.string(),
                                      found.identity.at("command").get<std::string>()));
     // What "auto" meant where the run began.
-    if (solver.isa == core::Isa::automatic)
-        solver.isa = core::isa_of(found.identity.at("isa").get<std::string>());
+    if (!solver.isa)
+        solver.isa = kernels::instruction_set(found.identity.at("isa").get<std::string>());
     return solver;
 }
 

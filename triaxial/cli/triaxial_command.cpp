@@ -192,8 +192,8 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
                   "{:.1f} s: packing {:.1f}, isotropic {:.1f}, shear {:.1f}; {:.3g} sphere-steps/s",
                   total, times.packing, result.isotropic_seconds, result.shear_seconds,
                   summary["particle_steps_per_second"].get<double>()));
-    print_row("solver",
-              fmt::format("{}, {}, {} threads", kernels.isa, kernels.precision, session.threads));
+    print_row("solver", fmt::format("{}, {}, {} threads", kernels::name(kernels.isa),
+                                    kernels.precision, session.threads));
     print_row("state hash", summary["state_hash"].get<std::string>());
     print_row("report", report.string());
 }

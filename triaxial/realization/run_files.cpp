@@ -95,7 +95,7 @@ nlohmann::json run_summary(const TestResult& r, const FieldRecord& field, const 
         {"particle_steps_per_second",
          static_cast<double>(particles) * static_cast<double>(steps) / stepping},
         {"state_hash", simulation.state_hash()},
-        {"isa", simulation.kernel_table().isa},
+        {"isa", kernels::name(simulation.kernel_table().isa)},
         {"precision", simulation.kernel_table().precision},
         {"threads", threads},
         {"version", GRAINFIELD_VERSION}};

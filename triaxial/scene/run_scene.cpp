@@ -156,7 +156,7 @@ SceneSummary run_scene(const SceneFile& file, const std::filesystem::path& sourc
     summary.particle_steps_per_second =
         double(summary.particles) * double(summary.steps) / summary.wall_seconds;
     summary.state_hash = simulation.state_hash();
-    summary.isa = kernels.isa;
+    summary.isa = kernels::name(kernels.isa);
     summary.precision = kernels.precision;
     summary.threads = threads;
     output.finish(simulation, summary);
