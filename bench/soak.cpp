@@ -58,7 +58,7 @@ std::string soak(const core::Simulation& still, const NamedKernels& kernels, boo
                             kernels::name(kernels.table->isa), simulation.steps(), stress, least,
                             most, energy.kinetic + energy.rotational,
                             energy.elastic_normal + energy.elastic_shear, energy.closing(),
-                            energy.work_put_in, simulation.touching_contacts(), resident());
+                            energy.work_put_in, simulation.contacts().count(), resident());
     };
     look();
     for (std::int64_t cycle = 0; cycle < cycles; ++cycle) {

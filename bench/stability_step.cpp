@@ -35,7 +35,7 @@ double largest_alternation(const core::Simulation& still, double step, double en
     constexpr int look_interval = 20;
     core::Simulation simulation = copy_of(still, double_kernels());
     const core::RandomStream random(1, core::Stream::perturbation);
-    simulation.add_velocities([&](std::size_t i, const Vec3&) -> Vec3 {
+    simulation.change().add_velocities([&](std::size_t i, const Vec3&) -> Vec3 {
         return perturbation / step *
                Vec3(random.normal(0, 3 * i), random.normal(0, 3 * i + 1),
                     random.normal(0, 3 * i + 2));
@@ -83,7 +83,7 @@ double sum_bound(const core::Simulation& simulation) {
     }
     double largest = 0;
     for (std::size_t i = 0; i < sum.size(); ++i)
-        largest = std::max(largest, sum[i] * simulation.inverse_inertial_mass(i));
+        largest = std::max(largest, sum[i] * simulation.sphere(i).inverse_inertial_mass());
     return 2 / std::sqrt(largest);
 }
 
@@ -129,12 +129,12 @@ void largest_stable_step(const StabilityRun& run) {
         const double sum = sum_bound(still), caught = 2 / core::caught_frequency(still, 0);
         std::vector<double> limits;
         for (const core::Damping damping : {core::Damping{}, sample.damping}) {
-            still.set_damping(damping);
+            still.change().set_damping(damping);
             limits.push_back(smallest_unstable_step(still, estimate));
             csv += fmt::format(
                 "lognormal,{},{},{},{},{:.6g},{:.6g},{:.5f},{:.5f},{:.6g},{:.6g},{:.6g},{:.6g},"
                 "{:.4f}\n",
-                contrast, damping.force, still.size(), still.touching_contacts(), estimate,
+                contrast, damping.force, still.size(), still.contacts().count(), estimate,
                 limits.back(), limits.back() / estimate, 1 / std::sqrt(1 - damping.force), fixed,
                 sum, caught, step, step / limits.back());
         }

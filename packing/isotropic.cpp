@@ -59,7 +59,7 @@ IsotropicResult compress_isotropically(core::Driver& driver, double stress) {
             if (worst < relaxed_within) {
                 const double limit = driver.control().limit();
                 const double share = limit > 0 ? step / limit / relaxed_step : 1.0;
-                simulation.scale_velocities(std::pow(relaxed_to, share));
+                simulation.change().scale_velocities(std::pow(relaxed_to, share));
             }
             reached = worst < stress_tolerance && result.unbalanced_force_ratio < isotropic_rest;
         });

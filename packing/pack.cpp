@@ -80,8 +80,8 @@ void compress(Packing& packing, core::Driver& driver, const Material& material, 
     core::Simulation& simulation = driver.simulation();
     driver.monitor().begin("compressing the sample isotropically");
     if (!resumed) {
-        simulation.set_gravity(Vec3::Zero());
-        simulation.set_walls(core::box_walls(packing.box, box_wall(material)));
+        simulation.change().set_gravity(Vec3::Zero());
+        simulation.change().set_walls(core::box_walls(packing.box, box_wall(material)));
         driver.control().reset();
     }
     packing.isotropic_stress = *packing.options.isotropic_stress;
@@ -133,7 +133,7 @@ Packing pack(const PackingOptions& options, const Grading& grading, const Materi
     packing.steps = simulation.steps();
     packing.porosity = 1 - simulation.spheres().solid_volume() / packing.box.volume();
     packing.state_hash = simulation.state_hash();
-    simulation.scale_velocities(0.0);
+    simulation.change().scale_velocities(0.0);
     packing.spheres = simulation.spheres();
     return packing;
 }

@@ -37,7 +37,7 @@ void settle_under_gravity(core::Driver& driver, std::size_t floor_wall, double g
     std::int64_t steps = 0;
     const auto part = core::part_of(driver.checkpoint(), "settling",
                                     [&](auto& archive) { archive(ratio, floor_error, steps); });
-    if (!part.resumed()) simulation.set_gravity(Vec3(0, -gravity, 0));
+    if (!part.resumed()) simulation.change().set_gravity(Vec3(0, -gravity, 0));
     for (;; ++steps) {
         driver.safe_point();
         const bool look = steps % look_every == 0;
@@ -45,7 +45,8 @@ void settle_under_gravity(core::Driver& driver, std::size_t floor_wall, double g
             if (!look) return;
             ratio = simulation.unbalanced_force_ratio();
             floor_error = core::wall_compression(simulation, floor_wall) / weight - 1;
-            if (std::abs(floor_error) < calmed_within) simulation.scale_velocities(calmed_to);
+            if (std::abs(floor_error) < calmed_within)
+                simulation.change().scale_velocities(calmed_to);
         });
         if (!look) continue;
         if (ratio < settled_ratio && std::abs(floor_error) < floor_tolerance &&
@@ -62,7 +63,7 @@ void settle_under_gravity(core::Driver& driver, std::size_t floor_wall, double g
                 "{:.2g} after {} steps",
                 ratio, steps));
     }
-    simulation.scale_velocities(0.0);
+    simulation.change().scale_velocities(0.0);
     simulation.compute_forces(true);
 }
 

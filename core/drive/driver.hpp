@@ -42,7 +42,8 @@ class Driver {
                 const double step = control_.next(simulation_);
                 simulation_.step(step, [&] { steer(step); });
             }
-            if (simulation_.steps() % watch_interval == 0 || simulation_.alarmed()) watch();
+            if (simulation_.steps() % watch_interval == 0 || simulation_.health().alarmed())
+                watch();
         } catch (const SimulationError&) {
             monitor_.ended_early(simulation_);
             throw;
@@ -71,7 +72,7 @@ class Driver {
     }
 
     /// Throws SimulationError if the state is broken.
-    void watch() { simulation_.check_state(); }
+    void watch() { simulation_.health().check(); }
 
     /// Ends a run that cannot reach what it should; the monitor hears of it first.
     [[noreturn]] void fail(const std::string& what) {

@@ -19,7 +19,7 @@ constexpr int full_iterations = 8, update_iterations = 5;  // a round
 
 /// Grows whenever there are other neighbours.
 std::int64_t searches(const Simulation& simulation) {
-    return simulation.neighbour_searches() + simulation.neighbour_renewals();
+    return simulation.stats().searches() + simulation.stats().partial_rebuilds();
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ double StepControl::next(Simulation& simulation) {
 void StepControl::scale_masses(Simulation& simulation) {
     const std::size_t n = simulation.size();
     std::vector<double> scale(n, 1.0);
-    simulation.set_inertia_scale(scale);
+    simulation.change().set_inertia_scale(scale);
     omega_target_ = frequency(simulation, full_rounds) / options_.mass_scaling;
     std::vector<double> local = local_square_frequencies(simulation);
     const std::vector<double> caught = caught_square_frequencies(simulation);
@@ -66,7 +66,7 @@ void StepControl::scale_masses(Simulation& simulation) {
     for (double margin = 1.0; margin < 3.0; margin *= 1.1) {
         for (std::size_t i = 0; i < n; ++i)
             scale[i] = std::max(1.0, margin * local[i] / (omega_target_ * omega_target_));
-        simulation.set_inertia_scale(scale);
+        simulation.change().set_inertia_scale(scale);
         omega_ = frequency(simulation, full_rounds);
         if (omega_ <= omega_target_) break;
     }

@@ -196,7 +196,7 @@ TEST_P(Frequency, AFewIterationsFromTheLastModeAreAsGoodAsManyFromScratch) {
         for (std::size_t i = 0; i < sim.size(); ++i)
             stiffness[i] =
                 sim.spheres().normal_stiffness[i] * (1 + 0.2 * random_vec(i, 99 + k).x());
-        sim.set_properties(stiffness, friction);
+        sim.change().set_properties(stiffness, friction);
         sim.compute_forces();
         const double ratio =
             estimator.estimate(sim, 1, 5) / FrequencyEstimator().estimate(sim, 8, 12);

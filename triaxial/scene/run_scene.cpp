@@ -68,13 +68,14 @@ class SceneRun {
             for (ServoWall& s : servos_)
                 s.servo.steer(simulation_, s.area(simulation_.walls()), step);
             simulation_.advance(step);
-            if (simulation_.steps() % core::Driver::watch_interval == 0 || simulation_.alarmed())
+            if (simulation_.steps() % core::Driver::watch_interval == 0 ||
+                simulation_.health().alarmed())
                 driver_.watch();
             if (reported_.seconds() > report_interval) report();
         }
         report();
         simulation_.compute_forces(true);
-        simulation_.check_state();
+        simulation_.health().check();
         output_.add(simulation_, time());
     }
 
@@ -105,7 +106,7 @@ class SceneRun {
         reported_.lap();
         monitor_.progress(
             time() / file_.end, simulation_.steps(),
-            fmt::format("t {:.4g} s, {} contacts", time(), simulation_.touching_contacts()));
+            fmt::format("t {:.4g} s, {} contacts", time(), simulation_.contacts().count()));
     }
 
     const SceneFile& file_;
@@ -147,7 +148,7 @@ SceneSummary run_scene(const SceneFile& file, const std::filesystem::path& sourc
     SceneSummary summary;
     summary.particles = simulation.spheres().size();
     summary.walls = simulation.walls().size();
-    summary.contacts = simulation.touching_contacts();
+    summary.contacts = simulation.contacts().count();
     summary.steps = simulation.steps();
     summary.time = run.time();
     summary.time_step = file.step ? *file.step : summary.time / double(summary.steps);
