@@ -132,7 +132,7 @@ void build_inner_list(const Domain<T>& domain, DomainLists<T>& lists, const Buil
     resize_list(scratch.separation, kernels::separation_size * near.b.size());
     kernels.place_neighbours(scratch.places.data(),
                              {near.b.size(), scratch.firsts.data(), near.b.data(),
-                              scratch.separation.data(), near.stretch.data()});
+                              scratch.separation.data(), near.bin.data()});
     lists.inner.build(scratch.firsts, near, scratch.separation, domain.idle(), kept);
 }
 
@@ -156,7 +156,7 @@ bool propose_to_wall(const Domain<T>& domain, const BuiltState& state, const Slo
         for (std::size_t c = 0; c < kernels::separation_size; ++c)
             scratch.separation[kernels::in_block(k, c, kernels::separation_size)] =
                 c == kernels::gap_component ? static_cast<T>(gap) : T(0);
-        near.stretch[k] = gap < -room ? std::uint8_t{kernels::stretches} : stretch_of(-gap / room);
+        near.bin[k] = gap < -room ? std::uint8_t{kernels::distance_bins} : bin_of(-gap / room);
         any |= gap >= -room;
     }
     return any;

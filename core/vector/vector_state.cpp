@@ -10,7 +10,7 @@ namespace grainfield::core {
 
 template <class Archive>
 void serialize(Archive& archive, Proposals& p) {
-    archive(bytes(p.b), bytes(p.stretch), bytes(p.count));
+    archive(bytes(p.b), bytes(p.bin), bytes(p.count));
 }
 
 template <class Archive, class T>

@@ -40,7 +40,7 @@ class VerletLists {
     }
     /// How many pairs of a domain are in play.
     std::size_t pairs_in_play(std::size_t domain) const {
-        return lists_[domain].inner.begin[stretch_of(most_used_) + 1u];
+        return lists_[domain].inner.begin[bin_of(most_used_) + 1u];
     }
 
     DomainLists<T>& of(std::size_t domain) { return lists_[domain]; }

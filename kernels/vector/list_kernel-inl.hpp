@@ -19,10 +19,10 @@ void place_neighbours(const BuiltPlace* places, const Neighbours<T>& list) {
     using D = double;
     constexpr std::size_t n = lanes<D>;
     const Tag<D> d;
-    const auto zero = hn::Zero(d), last = set<D>(stretches);
+    const auto zero = hn::Zero(d), last = set<D>(distance_bins);
     // A little earlier than need be: round-off must not make a pair come too late.
-    const auto early = set<D>(1 - 1e-5), rest = set<D>(stretches - 1);
-    const auto first = set<D>(first_stretch), one = set<D>(1);
+    const auto early = set<D>(1 - 1e-5), rest = set<D>(distance_bins - 1);
+    const auto first = set<D>(first_bin), one = set<D>(1);
     // b - a of the centres, a + b of radii and reserves.
     alignas(64) D signs[8] = {-1, -1, -1, 1, 1, 1, 1, 1};
     for (std::size_t k = 0; k < list.size; k += n) {
@@ -46,13 +46,12 @@ void place_neighbours(const BuiltPlace* places, const Neighbours<T>& list) {
         keep(1, branch.y);
         keep(2, branch.z);
         keep(gap_component, gap);
-        // Rounded down; pairs that overlap already belong to the first stretch.
+        // Rounded down; pairs that overlap already belong to the first bin.
         const auto share = hn::Mul(early, hn::Div(hn::Neg(gap), column[4]));
         const auto later = hn::Min(last, hn::MulAdd(rest, share, one));
         alignas(64) D used[n];
         hn::Store(hn::IfThenElse(hn::Lt(share, first), zero, later), d, used);
-        for (std::size_t l = 0; l < n; ++l)
-            list.stretch[k + l] = static_cast<std::uint8_t>(used[l]);
+        for (std::size_t l = 0; l < n; ++l) list.bin[k + l] = static_cast<std::uint8_t>(used[l]);
     }
 }
 

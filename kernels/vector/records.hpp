@@ -85,11 +85,11 @@ inline constexpr std::size_t padded(std::size_t n) {
 }
 
 /// Candidates are sorted by how much of their reserves two bodies must use up before they can
-/// meet: in the first stretch, a short one, are those that touch or nearly do, the last may be left
-/// alone for long. A step looks at the stretches that the motion since the build has brought into
+/// meet: in the first distance bin, a short one, are those that touch or nearly do, the last may be
+/// left alone for long. A step looks at the bins that the motion since the build has brought into
 /// play.
-inline constexpr std::size_t stretches = 8;
-inline constexpr double first_stretch = 0.01;  ///< its length, as a share of the reserves [-]
+inline constexpr std::size_t distance_bins = 8;
+inline constexpr double first_bin = 0.01;  ///< its length, as a share of the reserves [-]
 
 /// Candidates stand in blocks of most_lanes, component by component: x of all of a block, then y,
 /// z and so on. Place of a component of candidate k in a column of `components`:
@@ -109,7 +109,7 @@ struct Neighbours {
     std::size_t size;
     const std::int32_t *a, *b;  ///< places
     T* separation;              ///< in blocks
-    std::uint8_t* stretch;      ///< `stretches` if they cannot meet before the next lists
+    std::uint8_t* bin;          ///< `distance_bins` if they cannot meet before the next lists
 };
 
 /// Candidate contacts, two spheres (or a sphere and a wall: b is unused) each. The kernels look at

@@ -28,7 +28,7 @@ template <class T>
 using VectorMoveKernel = MoveResult (*)(SphereRecord<T>*, const SphereLoad<T>*,
                                         const BodyColumns<T>&, const MoveParameters<T>&,
                                         std::size_t n);
-/// Separations and the stretch of each pair.
+/// Separations and the bin of each pair.
 template <class T>
 using PlacementKernel = void (*)(const BuiltPlace*, const Neighbours<T>&);
 

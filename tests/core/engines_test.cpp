@@ -195,14 +195,14 @@ TEST(SpatialOrder, TakesSpheresInOnePlaceAndNone) {
     EXPECT_TRUE(order_in_space(Vec3Column{}, 700).sphere.empty());
 }
 
-TEST(CandidateList, KeepsHistoryThroughBuildsAndStretches) {
-    // Six proposals, of records 0 and 1, 1 and 2, ...; those of stretch 8 are no candidates.
-    const auto proposals = [](const std::array<std::uint8_t, 6>& stretch) {
+TEST(CandidateList, KeepsHistoryThroughBuildsAndBins) {
+    // Six proposals, of records 0 and 1, 1 and 2, ...; those of bin 8 are no candidates.
+    const auto proposals = [](const std::array<std::uint8_t, 6>& bin) {
         Proposals p;
-        p.resize(stretch.size(), 99);
-        for (std::size_t k = 0; k < stretch.size(); ++k) {
+        p.resize(bin.size(), 99);
+        for (std::size_t k = 0; k < bin.size(); ++k) {
             p.b[k] = static_cast<std::int32_t>(k) + 1;
-            p.stretch[k] = stretch[k];
+            p.bin[k] = bin[k];
         }
         return p;
     };
