@@ -12,7 +12,7 @@
 namespace grainfield::core {
 
 /// Distance bin (kernels::distance_bins) of a candidate that touches once the share `used` of its
-/// reserves is used up [-].
+/// buffers is used up [-].
 inline std::uint8_t bin_of(double used) {
     if (used < kernels::first_bin) return 0;
     constexpr auto last = static_cast<double>(kernels::distance_bins - 1);
@@ -78,7 +78,7 @@ struct CandidateList {
     void build(std::span<const std::int32_t> firsts, Proposals& proposals,
                const Aligned<T>& separation, std::int32_t idle,
                std::span<const KeptContact<T>> kept);
-    /// The candidates that can touch while no more than `used` of any reserve is used up.
+    /// The candidates that can touch while no more than `used` of any buffer is used up.
     kernels::Candidates<T> view(double used, Aligned<std::int32_t>& scratch);
 
   private:

@@ -270,7 +270,7 @@ template <class T>
 void VectorEngine<T>::reduce_motion() {
     double used2 = 0;
     for (const Domain<T>& domain : sample_.domains) {
-        used2 = std::max(used2, domain.motion.used_reserve2);
+        used2 = std::max(used2, domain.motion.used_buffer2);
         suspicious_ |= domain.motion.too_far;
         if (domain.motion.too_far) lists_.invalidate();  // the rebuild names what is not a number
         world_.damping_work += domain.motion.damping_work;

@@ -23,7 +23,7 @@ void place_neighbours(const BuiltPlace* places, const Neighbours<T>& list) {
     // A little earlier than need be: round-off must not make a pair come too late.
     const auto early = set<D>(1 - 1e-5), rest = set<D>(distance_bins - 1);
     const auto first = set<D>(first_bin), one = set<D>(1);
-    // b - a of the centres, a + b of radii and reserves.
+    // b - a of the centres, a + b of radii and buffers.
     alignas(64) D signs[8] = {-1, -1, -1, 1, 1, 1, 1, 1};
     for (std::size_t k = 0; k < list.size; k += n) {
         std::array<Lane<D>, 8> column;

@@ -60,19 +60,19 @@ SphereLoad<T>& load_of(SphereLoad<T>* loads, std::int32_t entry) {
 /// four are padded to multiples of most_lanes, the others are not.
 template <class T>
 struct BodyColumns {
-    std::size_t own;           ///< how many spheres
-    const T* inverse_mass;     ///< of the motion; differs from 1/mass if scaled [1/kg]
-    const T* spin_response;    ///< radius over moment of inertia [1/(kg m)]
-    const T* mass;             ///< gravitational [kg]
-    const T* inverse_reserve;  ///< 1 over what it may move beyond the box's strain [1/m]
-    const double *x, *y, *z;   ///< centre when the lists were built [m]
+    std::size_t own;          ///< how many spheres
+    const T* inverse_mass;    ///< of the motion; differs from 1/mass if scaled [1/kg]
+    const T* spin_response;   ///< radius over moment of inertia [1/(kg m)]
+    const T* mass;            ///< gravitational [kg]
+    const T* inverse_buffer;  ///< 1 over what it may move beyond the box's strain [1/m]
+    const double *x, *y, *z;  ///< centre when the lists were built [m]
 };
 
 /// Where a sphere was when the lists were built: all that makes two of them neighbours.
 struct alignas(64) BuiltPlace {
     double x[3];      ///< centre [m]
     double radius;    ///< [m]
-    double reserve;   ///< what it may move beyond the box's strain [m]
+    double buffer;    ///< what it may move beyond the box's strain [m]
     double spare[3];  ///< unused [-]
 };
 
@@ -84,12 +84,12 @@ inline constexpr std::size_t padded(std::size_t n) {
     return (n + most_lanes - 1) / most_lanes * most_lanes;
 }
 
-/// Candidates are sorted by how much of their reserves two bodies must use up before they can
+/// Candidates are sorted by how much of their buffers two bodies must use up before they can
 /// meet: in the first distance bin, a short one, are those that touch or nearly do, the last may be
 /// left alone for long. A step looks at the bins that the motion since the build has brought into
 /// play.
 inline constexpr std::size_t distance_bins = 8;
-inline constexpr double first_bin = 0.01;  ///< its length, as a share of the reserves [-]
+inline constexpr double first_bin = 0.01;  ///< its length, as a share of the buffers [-]
 
 /// Candidates stand in blocks of most_lanes, component by component: x of all of a block, then y,
 /// z and so on. Place of a component of candidate k in a column of `components`:
@@ -164,9 +164,9 @@ struct MoveParameters {
 };
 
 struct MoveResult {
-    double used_reserve2 = 0;  ///< largest square of motion beyond affine over reserve [-]
-    double damping_work = 0;   ///< with the ledger only [J]
-    bool too_far = false;      ///< a sphere moved more than half its radius, or is not a number
+    double used_buffer2 = 0;  ///< largest square of motion beyond affine over buffer [-]
+    double damping_work = 0;  ///< with the ledger only [J]
+    bool too_far = false;     ///< a sphere moved more than half its radius, or is not a number
 };
 
 }  // namespace grainfield::kernels
