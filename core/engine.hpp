@@ -52,12 +52,12 @@ class Engine {
     }
 
     /// Brings the store's positions, velocities and spins up to date.
-    virtual void pull() = 0;
+    virtual void download() = 0;
     /// Brings world.force and world.moment up to date; forces must be current.
-    virtual void pull_resultants() = 0;
+    virtual void download_resultants() = 0;
     /// Takes over velocities, spins and properties changed in the store.
-    virtual void push() = 0;
-    /// Multiplies velocities and spins; the store has to be pulled afterwards.
+    virtual void upload() = 0;
+    /// Multiplies velocities and spins; the store has to be downloaded to afterwards.
     virtual void scale_velocities(double factor) = 0;
     /// Takes over walls that were replaced: history with the old ones is lost.
     virtual void forget_walls() = 0;

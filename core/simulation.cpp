@@ -14,7 +14,7 @@ Simulation::Simulation(Scene scene, const kernels::KernelTable& kernels, Simulat
       engine_(make_engine(*world_, kernels)) {}
 
 const Scene& Simulation::scene() const {
-    if (!store_current_) engine_->pull();
+    if (!store_current_) engine_->download();
     store_current_ = true;
     return world_->scene;
 }
@@ -51,7 +51,7 @@ void Simulation::move_walls(double step) {
 // --- views ---------------------------------------------------------------------------------------
 
 const Vec3Column& Simulation::resultants() const {
-    if (!resultants_current_) engine_->pull_resultants();
+    if (!resultants_current_) engine_->download_resultants();
     resultants_current_ = true;
     return world_->force;
 }

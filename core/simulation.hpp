@@ -122,7 +122,7 @@ void Change::add_velocities(const Field& velocity) {
         ParticleStore& s = simulation_.changing();
         for (std::size_t i = 0; i < s.size(); ++i)
             s.velocity.set(i, s.velocity[i] + velocity(i, s.position[i]));
-        simulation_.engine_->push();
+        simulation_.engine_->upload();
     });
 }
 

@@ -30,7 +30,7 @@ double Simulation::energy_gained(const std::function<void()>& change) {
 
 void Simulation::changed() {
     world_->refresh();
-    engine_->push();
+    engine_->upload();
 }
 
 void Change::set_wall_point(std::size_t wall, const Vec3& point) {

@@ -32,7 +32,7 @@ VectorEngine<T>::VectorEngine(World& world, const kernels::VectorKernels<T>& ker
       sample_(decompose<T>(world)),
       lists_(world, sample_, kernels),
       contacts_(world, sample_, lists_) {
-    push();
+    upload();
 }
 
 // --- the step ------------------------------------------------------------------------------------
@@ -222,7 +222,7 @@ void VectorEngine<T>::for_resultants(const Task& task, const Use& use) {
 }
 
 template <class T>
-void VectorEngine<T>::pull_resultants() {
+void VectorEngine<T>::download_resultants() {
     world_.force.resize(world_.size());
     world_.moment.resize(world_.size());
     for_domains(false, [&](const Task& task) {

@@ -23,7 +23,7 @@
 //     compute_forces()           yes           compute       |resultants| are added up
 //     compute_and_move()         yes           compute       integrate
 //     move()                     no            replay        integrate
-//     pull_resultants()          no            replay        resultants are stored
+//     download_resultants()          no            replay        resultants are stored
 //
 // Results are the same, bit for bit, for any number of threads; they depend on when the lists are
 // built, which follows from the state alone.
@@ -54,9 +54,9 @@ class VectorEngine : public Engine {
     void compute_and_move(double step) override;
 
     // To and from the store (vector_transfer.cpp).
-    void pull() override;
-    void pull_resultants() override;
-    void push() override;
+    void download() override;
+    void download_resultants() override;
+    void upload() override;
     void scale_velocities(double factor) override;
 
     // Lists and contacts.

@@ -5,7 +5,7 @@
 namespace grainfield::core {
 
 template <class T>
-void VectorEngine<T>::push() {
+void VectorEngine<T>::upload() {
     const ParticleStore& s = world_.spheres();
     for (Domain<T>& domain : sample_.domains)
         for (std::size_t k = 0; k < domain.own; ++k) {
@@ -23,7 +23,7 @@ void VectorEngine<T>::push() {
     if (weighed_) weigh();
     ghosts_outdated_ = true;
     if (!world_.has_friction) contacts_.clear_shear();
-    suspicious_ = true;  // what was pushed has not been looked at
+    suspicious_ = true;  // what was uploaded has not been looked at
 }
 
 /// Gives the bodies their masses.
@@ -53,7 +53,7 @@ void VectorEngine<T>::scale_velocities(double factor) {
 }
 
 template <class T>
-void VectorEngine<T>::pull() {
+void VectorEngine<T>::download() {
     ParticleStore& s = world_.scene.spheres;
 #pragma omp parallel for schedule(static) if (sample_.size() > 1)
     for (std::size_t d = 0; d < sample_.size(); ++d) {
@@ -68,13 +68,13 @@ void VectorEngine<T>::pull() {
     }
 }
 
-template void VectorEngine<float>::push();
-template void VectorEngine<double>::push();
+template void VectorEngine<float>::upload();
+template void VectorEngine<double>::upload();
 template void VectorEngine<float>::weigh();
 template void VectorEngine<double>::weigh();
 template void VectorEngine<float>::scale_velocities(double);
 template void VectorEngine<double>::scale_velocities(double);
-template void VectorEngine<float>::pull();
-template void VectorEngine<double>::pull();
+template void VectorEngine<float>::download();
+template void VectorEngine<double>::download();
 
 }  // namespace grainfield::core
