@@ -4,7 +4,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/drive/driver.hpp"
 #include "core/kernel_choice.hpp"
-#include "core/state/part_of.hpp"
+#include "core/state/section_of.hpp"
 #include "core/state/world_state.hpp"
 #include "packing/flip.hpp"
 #include "packing/isotropic.hpp"
@@ -105,7 +105,7 @@ Packing pack(const PackingOptions& options, const Grading& grading, const Materi
     Packing packing;
     packing.options = options;
     packing.grading = grading;
-    const auto part = core::part_of(checkpoint, "packing", [&](auto& archive) {
+    const auto section = core::section_of(checkpoint, "packing", [&](auto& archive) {
         archive(core::bytes(done), watch);
         if (done != Done::nothing) archive_packing(archive, packing);
     });
@@ -114,7 +114,7 @@ Packing pack(const PackingOptions& options, const Grading& grading, const Materi
         packing.block_seconds = watch.lap();
         done = Done::block;
     }
-    const bool resumed = part.resumed() && checkpoint->resuming();
+    const bool resumed = section.resumed() && checkpoint->resuming();
     const Vec3 size(options.block.x() * options.blocks[0], options.block.y() * options.blocks[1],
                     options.block.z() * options.blocks[2]);
     core::Simulation simulation(

@@ -8,7 +8,7 @@
 
 #include "core/drive/measures.hpp"
 #include "core/drive/servo.hpp"
-#include "core/state/part_of.hpp"
+#include "core/state/section_of.hpp"
 
 namespace grainfield::packing {
 namespace {
@@ -35,9 +35,10 @@ void settle_under_gravity(core::Driver& driver, std::size_t floor_wall, double g
 
     double ratio = 1, floor_error = 1;
     std::int64_t steps = 0;
-    const auto part = core::part_of(driver.checkpoint(), "settling",
-                                    [&](auto& archive) { archive(ratio, floor_error, steps); });
-    if (!part.resumed()) simulation.change().set_gravity(Vec3(0, -gravity, 0));
+    const auto section = core::section_of(driver.checkpoint(), "settling", [&](auto& archive) {
+        archive(ratio, floor_error, steps);
+    });
+    if (!section.resumed()) simulation.change().set_gravity(Vec3(0, -gravity, 0));
     for (;; ++steps) {
         driver.safe_point();
         const bool look = steps % look_every == 0;

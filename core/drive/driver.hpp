@@ -50,9 +50,10 @@ class Driver {
         }
     }
 
-    /// To be called between steps, where all state of the work is in its parts of the checkpoint:
-    /// saves if it is time to. If the user asked to stop, saves (where there is a checkpoint) and
-    /// throws Interrupted. A save that fails while the run goes on is told to the monitor.
+    /// To be called between steps, where all state of the work is in its sections of the
+    /// checkpoint: saves if it is time to. If the user asked to stop, saves (where there is a
+    /// checkpoint) and throws Interrupted. A save that fails while the run goes on is told to the
+    /// monitor.
     void safe_point() {
         if (monitor_.stop_requested()) stop();
         if (checkpoint_ != nullptr && checkpoint_->due()) save();
@@ -100,7 +101,7 @@ class Driver {
     std::int64_t next_energy_ = 0;
     std::optional<double> most_kinetic_;  // [J]
     std::int64_t next_kinetic_ = 0;
-    Checkpoint::Part part_;  // last: it loads what stands above
+    Checkpoint::Section section_;  // last: it loads what stands above
 };
 
 }  // namespace grainfield::core

@@ -12,7 +12,7 @@
 #include "core/files/folder.hpp"
 #include "core/files/text_file.hpp"
 #include "core/kernel_choice.hpp"
-#include "core/state/part_of.hpp"
+#include "core/state/section_of.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/kept_run.hpp"
 #include "triaxial/cli/print_row.hpp"
@@ -166,7 +166,8 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
     KeptRun kept(session.monitor, out / "state.h5", checkpoint);
 
     Before before;
-    const auto part = core::part_of(&checkpoint, "run", [&](auto& archive) { archive(before); });
+    const auto section =
+        core::section_of(&checkpoint, "run", [&](auto& archive) { archive(before); });
     core::Simulation simulation =
         kept.run([&] { return begin_test(run, before, kernels, out, kept, checkpoint); });
     const TestResult result =

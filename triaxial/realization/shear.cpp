@@ -7,7 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/drive/box.hpp"
-#include "core/state/part_of.hpp"
+#include "core/state/section_of.hpp"
 #include "packing/isotropic.hpp"
 
 namespace grainfield::triaxial {
@@ -135,9 +135,9 @@ void ShearStage::archive_state(Archive& archive) {
 }
 
 void ShearStage::run() {
-    const auto part = core::part_of(driver_.checkpoint(), "shear",
-                                    [this](auto& archive) { archive_state(archive); });
-    if (!part.resumed()) start_affine();
+    const auto section = core::section_of(driver_.checkpoint(), "shear",
+                                          [this](auto& archive) { archive_state(archive); });
+    if (!section.resumed()) start_affine();
     driver_.limit_kinetic_energy(core::most_kinetic_energy(
         driver_.simulation(), options_.strain_rate, options_.confining_stress));
     for (bool ended = false; !ended;) {

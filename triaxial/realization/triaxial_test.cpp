@@ -8,7 +8,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/drive/box.hpp"
-#include "core/state/part_of.hpp"
+#include "core/state/section_of.hpp"
 #include "packing/isotropic.hpp"
 #include "triaxial/realization/shear.hpp"
 
@@ -119,12 +119,12 @@ TestResult run_test(core::Simulation& simulation, const Config& config, core::Mo
     TestResult result;
     core::Stopwatch watch;
     bool compressed = false;
-    const auto part = core::part_of(checkpoint, "triaxial test", [&](auto& archive) {
+    const auto section = core::section_of(checkpoint, "triaxial test", [&](auto& archive) {
         archive(compressed, watch);
         archive_result(archive, result);
     });
     const double solid = simulation.spheres().solid_volume();
-    if (!part.resumed()) result.porosity = 1 - solid / core::box_dimensions(simulation).prod();
+    if (!section.resumed()) result.porosity = 1 - solid / core::box_dimensions(simulation).prod();
     if (simulation.keeps_ledger()) driver.log_energies_to(result.energies);
     if (!compressed) {
         compress(result, driver, config, solid);

@@ -8,7 +8,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/drive/driver.hpp"
 #include "core/kernel_choice.hpp"
-#include "core/state/part_of.hpp"
+#include "core/state/section_of.hpp"
 #include "triaxial/scene/scene_output.hpp"
 #include "triaxial/scene/scene_setup.hpp"
 
@@ -40,7 +40,7 @@ class SceneRun {
           monitor_(monitor),
           driver_(simulation, {file.step, file.safety, file.mass_scaling}, monitor, checkpoint),
           servos_(set_up_servos(file, simulation.scene(), source)),
-          part_(
+          section_(
               checkpoint, "scene",
               [this](core::StateWriter& archive) {
                   archive_state(archive);
@@ -118,7 +118,7 @@ class SceneRun {
     std::vector<ServoWall> servos_;
     double next_output_ = 0;  // in units of the interval [-]
     core::Stopwatch reported_, watch_;
-    core::Checkpoint::Part part_;  // last: it loads what stands above
+    core::Checkpoint::Section section_;  // last: it loads what stands above
 };
 
 }  // namespace
