@@ -126,7 +126,7 @@ void largest_stable_step(const StabilityRun& run) {
         const double step = core::StepControl({}).next(still);
         const std::vector<double> local = core::local_square_frequencies(still);
         const double fixed = 2 / std::sqrt(*std::max_element(local.begin(), local.end()));
-        const double sum = sum_bound(still), caught = 2 / core::caught_frequency(still, 0);
+        const double sum = sum_bound(still), caged = 2 / core::caged_frequency(still, 0);
         std::vector<double> limits;
         for (const core::Damping damping : {core::Damping{}, sample.damping}) {
             still.change().set_damping(damping);
@@ -136,11 +136,11 @@ void largest_stable_step(const StabilityRun& run) {
                 "{:.4f}\n",
                 contrast, damping.force, still.size(), still.contacts().count(), estimate,
                 limits.back(), limits.back() / estimate, 1 / std::sqrt(1 - damping.force), fixed,
-                sum, caught, step, step / limits.back());
+                sum, caged, step, step / limits.back());
         }
         points += fmt::format("{} {} {} {} {} {} {}\n", contrast, estimate / limits[0],
                               limits[1] / limits[0], fixed / limits[0], sum / limits[0],
-                              caught / limits[0], step / limits[0]);
+                              caged / limits[0], step / limits[0]);
         say(fmt::format("step: contrast {}: limit over estimate {:.4f} undamped, {:.4f} damped",
                         contrast, limits[0] / estimate, limits[1] / estimate));
     }

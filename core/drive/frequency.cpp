@@ -250,7 +250,7 @@ double FrequencyEstimator::estimate(const Simulation& simulation, int restarts, 
 
 namespace {
 
-/// Caught between two spheres of its own kind.
+/// Caged between two spheres of its own kind.
 std::vector<double> square_between_alike(const Simulation& simulation) {
     const ParticleStore& s = simulation.spheres();
     const double ratio = simulation.scene().stiffness_ratio;
@@ -286,7 +286,7 @@ class StiffestTwo {
 
 }  // namespace
 
-std::vector<double> caught_square_frequencies(const Simulation& simulation) {
+std::vector<double> caged_square_frequencies(const Simulation& simulation) {
     const Scene& scene = simulation.scene();
     const ParticleStore& s = scene.spheres;
     StiffestTwo stiffest(s.size());
@@ -312,12 +312,12 @@ std::vector<double> caught_square_frequencies(const Simulation& simulation) {
     return square;
 }
 
-double caught_frequency(const Simulation& simulation, double known) {
+double caged_frequency(const Simulation& simulation, double known) {
     const auto largest = [](const std::vector<double>& square) {
         return square.empty() ? 0.0 : std::sqrt(*std::max_element(square.begin(), square.end()));
     };
     const double alike = largest(square_between_alike(simulation));
-    return alike <= known ? alike : largest(caught_square_frequencies(simulation));
+    return alike <= known ? alike : largest(caged_square_frequencies(simulation));
 }
 
 std::vector<double> local_square_frequencies(const Simulation& simulation) {

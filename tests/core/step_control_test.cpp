@@ -99,7 +99,7 @@ TEST_P(MassScaling, TakesNoMoreMassThanTheStepNeeds) {
         if (spacing > 1) continue;
         // The margin grows by a tenth at a time, the frequency falls by its root.
         const double target = 2 * 0.8 / (3 * step);
-        const double omega = std::max(FrequencyEstimator().estimate(sim), caught_frequency(sim, 0));
+        const double omega = std::max(FrequencyEstimator().estimate(sim), caged_frequency(sim, 0));
         EXPECT_LE(omega, 1.01 * target);
         EXPECT_GE(omega, 0.94 * target);
     }
