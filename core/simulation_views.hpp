@@ -39,7 +39,7 @@ class StatsView {
     std::int64_t list_builds() const { return engine_.list_builds(); }  ///< so far [-]
     std::int64_t searches() const { return engine_.searches(); }  ///< of neighbours so far [-]
     /// Searches for the neighbours of a few spheres alone, so far [-].
-    std::int64_t partial_rebuilds() const { return engine_.renewals(); }
+    std::int64_t partial_rebuilds() const { return engine_.partial_rebuilds(); }
     StepCost step_cost() const { return engine_.step_cost(); }  ///< of the step taken last
     /// Candidates in the lists; those that the engine looks at twice count twice [-].
     std::int64_t candidates() const { return engine_.candidate_count(); }

@@ -30,8 +30,7 @@ struct World {
     double smallest_radius = 0, largest_radius = 0;  ///< [m]
 
     // What the last force evaluation found.
-    Vec3Column force,
-        moment;  ///< resultants, gravity included; where Engine::download_resultants() brings them
+    Vec3Column force, moment;  ///< resultants, gravity included: Engine::download_resultants()
     std::vector<kernels::WallLoad> wall_loads, last_wall_loads;
     kernels::ContactSums contact_sums;  ///< where sums were asked for
     // With the ledger [J].

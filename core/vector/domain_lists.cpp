@@ -130,9 +130,8 @@ void build_inner_list(const Domain<T>& domain, DomainLists<T>& lists, const Buil
     collect_places(domain, state, radii, scratch.places);
     collect_firsts(domain, lists, scratch.firsts);
     resize_list(scratch.separation, kernels::separation_size * near.b.size());
-    kernels.place_neighbours(scratch.places.data(),
-                             {near.b.size(), scratch.firsts.data(), near.b.data(),
-                              scratch.separation.data(), near.bin.data()});
+    kernels.prune(scratch.places.data(), {near.b.size(), scratch.firsts.data(), near.b.data(),
+                                          scratch.separation.data(), near.bin.data()});
     lists.inner.build(scratch.firsts, near, scratch.separation, domain.idle(), kept);
 }
 

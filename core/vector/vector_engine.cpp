@@ -73,7 +73,7 @@ template <class T>
 template <class Work>
 void VectorEngine<T>::for_domains(bool ghosts_moved, const Work& work) {
     const std::size_t domains = sample_.size();
-    if (world_.motion_features().gravity && !weighed_) weigh();
+    if (world_.motion_features().gravity && !has_masses_) upload_masses();
     scratch_.resize(static_cast<std::size_t>(omp_get_max_threads()));
 #pragma omp parallel if (domains > 1)
     {

@@ -23,7 +23,7 @@
 //     compute_forces()           yes           compute       |resultants| are added up
 //     compute_and_move()         yes           compute       integrate
 //     move()                     no            replay        integrate
-//     download_resultants()          no            replay        resultants are stored
+//     download_resultants()      no            replay        resultants are stored
 //
 // Results are the same, bit for bit, for any number of threads; they depend on when the lists are
 // built, which follows from the state alone.
@@ -71,7 +71,7 @@ class VectorEngine : public Engine {
     }
     std::int64_t list_builds() const override { return lists_.builds(); }
     std::int64_t searches() const override { return lists_.searches(); }
-    std::int64_t renewals() const override { return lists_.partial_rebuilds(); }
+    std::int64_t partial_rebuilds() const override { return lists_.partial_rebuilds(); }
 
     double resultant_sum() override;
     StepCost step_cost() const override;
@@ -121,7 +121,7 @@ class VectorEngine : public Engine {
     double mass_of(const Domain<T>& domain, std::size_t k) const {
         return world_.spheres().mass[sample_.sphere(domain, k)];
     }
-    void weigh();
+    void upload_masses();
     /// Lists the state for an archive, in either direction.
     template <class Self, class Archive>
     static void list_state(Self& self, Archive& archive);
@@ -133,7 +133,7 @@ class VectorEngine : public Engine {
     std::vector<Scratch<T>> scratch_;            // of each thread
     std::vector<kernels::WallPlane<T>> planes_;  // at the last force evaluation
     bool suspicious_ = false;
-    bool weighed_ = false;         // the bodies know their masses
+    bool has_masses_ = false;      // the bodies have theirs
     bool ghosts_outdated_ = true;  // of what does not change by motion
 };
 

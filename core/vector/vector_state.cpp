@@ -40,7 +40,7 @@ template <class T>
 template <class Self, class Archive>
 void VectorEngine<T>::list_state(Self& self, Archive& archive) {
     archive(bytes(self.sample_.order.sphere), bytes(self.sample_.order.first), self.sample_.domains,
-            self.lists_, self.suspicious_, self.weighed_);
+            self.lists_, self.suspicious_, self.has_masses_);
 }
 
 template <class T>

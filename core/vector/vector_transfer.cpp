@@ -20,7 +20,7 @@ void VectorEngine<T>::upload() {
             domain.body(inverse_mass)[k] = static_cast<T>(world_.inverse_inertial_mass(i));
             domain.body(spin_response)[k] = static_cast<T>(s.radius[i] * world_.inverse_inertia(i));
         }
-    if (weighed_) weigh();
+    if (has_masses_) upload_masses();
     ghosts_outdated_ = true;
     if (!world_.has_friction) contacts_.clear_shear();
     suspicious_ = true;  // what was uploaded has not been looked at
@@ -28,13 +28,13 @@ void VectorEngine<T>::upload() {
 
 /// Gives the bodies their masses.
 template <class T>
-void VectorEngine<T>::weigh() {
+void VectorEngine<T>::upload_masses() {
     for (Domain<T>& domain : sample_.domains) {
         domain.bodies.resize(body_columns * domain.ghost_begin());
         for (std::size_t k = 0; k < domain.own; ++k)
             domain.body(mass)[k] = static_cast<T>(mass_of(domain, k));
     }
-    weighed_ = true;
+    has_masses_ = true;
 }
 
 template <class T>
@@ -70,8 +70,8 @@ void VectorEngine<T>::download() {
 
 template void VectorEngine<float>::upload();
 template void VectorEngine<double>::upload();
-template void VectorEngine<float>::weigh();
-template void VectorEngine<double>::weigh();
+template void VectorEngine<float>::upload_masses();
+template void VectorEngine<double>::upload_masses();
 template void VectorEngine<float>::scale_velocities(double);
 template void VectorEngine<double>::scale_velocities(double);
 template void VectorEngine<float>::download();

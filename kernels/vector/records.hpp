@@ -103,13 +103,13 @@ inline constexpr std::size_t separation_size = 4, gap_component = 3;
 /// not touch [N].
 inline constexpr std::size_t history_size = 3;
 
-/// Pairs of spheres that may become candidates, padded to multiples of most_lanes.
+/// Pairs of the outer list, padded to multiples of most_lanes.
 template <class T>
-struct Neighbours {
+struct OuterPairs {
     std::size_t size;
     const std::int32_t *a, *b;  ///< places
     T* separation;              ///< in blocks
-    std::uint8_t* bin;          ///< `distance_bins` if they cannot meet before the next lists
+    std::uint8_t* bin;          ///< `distance_bins` if they cannot meet before the next build
 };
 
 /// Candidate contacts, two spheres (or a sphere and a wall: b is unused) each. The kernels look at

@@ -7,8 +7,8 @@
 #define GRAINFIELD_TABLES_INL
 #endif
 
-#include "kernels/vector/list_kernel-inl.hpp"
 #include "kernels/vector/move_kernel-inl.hpp"
+#include "kernels/vector/prune_kernel-inl.hpp"
 #include "kernels/vector/wall_kernel-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -52,7 +52,7 @@ const VectorKernels<T>& vector_kernels() {
         set_motion_kernels<T, false, true>(t);
         set_motion_kernels<T, true, false>(t);
         set_motion_kernels<T, true, true>(t);
-        t.place_neighbours = place_neighbours<T>;
+        t.prune = prune<T>;
         return t;
     }();
     return table;

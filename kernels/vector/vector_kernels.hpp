@@ -28,9 +28,10 @@ template <class T>
 using VectorMoveKernel = MoveResult (*)(SphereRecord<T>*, const SphereLoad<T>*,
                                         const BodyColumns<T>&, const MoveParameters<T>&,
                                         std::size_t n);
-/// Separations and the bin of each pair.
+/// Separations and distance bins of the outer pairs: those of the last bin but one and below are
+/// the candidates of the inner list (pruning, as GROMACS calls it).
 template <class T>
-using PlacementKernel = void (*)(const BuiltPlace*, const Neighbours<T>&);
+using PruneKernel = void (*)(const BuiltPlace*, const OuterPairs<T>&);
 
 /// The kernels of contacts, one for each combination of features.
 template <class Kernel>
@@ -60,7 +61,7 @@ struct VectorKernels {
     ContactKernels<VectorPairKernel<T>> pairs;
     ContactKernels<VectorWallKernel<T>> walls;
     MotionKernels<VectorMoveKernel<T>> spheres;
-    PlacementKernel<T> place_neighbours;
+    PruneKernel<T> prune;
 };
 
 }  // namespace grainfield::kernels

@@ -1,10 +1,11 @@
-// Separations of neighbours, and which of them are candidates.
+// Prunes the outer Verlet list to the inner one: separations of its pairs, and which are
+// candidates.
 
-#if defined(GRAINFIELD_LIST_KERNEL_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef GRAINFIELD_LIST_KERNEL_INL
-#undef GRAINFIELD_LIST_KERNEL_INL
+#if defined(GRAINFIELD_PRUNE_KERNEL_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINFIELD_PRUNE_KERNEL_INL
+#undef GRAINFIELD_PRUNE_KERNEL_INL
 #else
-#define GRAINFIELD_LIST_KERNEL_INL
+#define GRAINFIELD_PRUNE_KERNEL_INL
 #endif
 
 #include "kernels/vector/blocks-inl.hpp"
@@ -15,7 +16,7 @@ namespace grainfield::kernels::HWY_NAMESPACE {
 
 /// In double whatever T: what is kept in T is the result alone.
 template <class T>
-void place_neighbours(const BuiltPlace* places, const Neighbours<T>& list) {
+void prune(const BuiltPlace* places, const OuterPairs<T>& list) {
     using D = double;
     constexpr std::size_t n = lanes<D>;
     const Tag<D> d;
