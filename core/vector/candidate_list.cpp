@@ -55,8 +55,8 @@ void CandidateList<T>::build(std::span<const std::int32_t> firsts, Proposals& pr
     using kernels::history_size, kernels::in_block, kernels::separation_size;
     for (const KeptContact<T>& contact : kept)
         proposals.bin[static_cast<std::size_t>(contact.proposal)] = 0;
-    // Counting sort by bin; no branches, which nobody could foresee. Those that are no
-    // candidates come last and are dropped: they have room to be written to.
+    // Counting sort by bin, without branches: they would be mispredicted. Pairs that are no
+    // candidates are written to the first place behind the list, which padding overwrites.
     std::array<std::size_t, kernels::distance_bins + 2> first{};
     for (std::size_t p = 0; p < proposals.count; ++p) ++first[proposals.bin[p] + 1u];
     std::partial_sum(first.begin(), first.end(), first.begin());

@@ -19,8 +19,9 @@ inline std::uint8_t bin_of(double used) {
     return static_cast<std::uint8_t>(std::min(1 + used * last, last));
 }
 
-/// Pairs that a candidate list is chosen from, in an order that lasts from one build to the next.
-/// Their first records stand elsewhere: pairs that follow each other mostly share them.
+/// Pairs that a candidate list is chosen from. Their order stays the same from one build to the
+/// next. Only second records stand here: pairs are grouped by their first record, which the caller
+/// knows.
 struct Proposals {
     Aligned<std::int32_t> b;    ///< second records
     Aligned<std::uint8_t> bin;  ///< kernels::distance_bins if it is no candidate
@@ -71,10 +72,10 @@ struct CandidateList {
     void keep(const Proposals& proposals, std::vector<KeptContact<T>>& kept) const;
     /// The same where a proposal's place is the number of its first record.
     void keep_by_record(std::vector<KeptContact<T>>& kept) const;
-    /// Replaces the list by those proposals that are candidates; `firsts` are their first records,
-    /// `separation` of each is in blocks. Those in `kept` have their history there and are of the
-    /// first bin, however far apart they are by now: a spring that is gone has to be accounted
-    /// for. Padding gets the record `idle`.
+    /// Replaces the list by those proposals that are candidates. `firsts` are the first records of
+    /// the proposals, `separation` is theirs in blocks. Contacts in `kept` get their history and go
+    /// into bin 0, even if they have come apart: the next step has to book the energy of their
+    /// springs. Padding gets the record `idle`.
     void build(std::span<const std::int32_t> firsts, Proposals& proposals,
                const Aligned<T>& separation, std::int32_t idle,
                std::span<const KeptContact<T>> kept);

@@ -21,9 +21,9 @@ struct WallList {
 
 template <class T>
 struct DomainLists {
-    /// Outer list: all pairs that can become candidates before the next search, ascending by slots:
-    /// row after row of the pairs that have one first record. Rows belong to the ghosts whose slots
-    /// are below those of the domain, then to its own spheres.
+    /// Outer list: all pairs that can become candidates before the next search, ascending by slots.
+    /// The pairs of one first record are a row. First come the rows of the ghosts whose slots are
+    /// below those of the domain, then the rows of its own spheres.
     Proposals outer;
     Aligned<std::int32_t> row_end;  ///< of each row, among the outer pairs
 

@@ -8,9 +8,9 @@
 namespace grainfield::core {
 namespace {
 
-/// Reads what a domain needs out of order, so that it is in this core's cache; columns read in
-/// order come by themselves. Loads, because prefetches are dropped where a page's address is not at
-/// hand.
+/// Brings into this core's cache what stages 2 to 4 read out of order; what they read in order the
+/// hardware fetches by itself. It loads, because a prefetch is dropped where the TLB does not hold
+/// the page.
 template <class T>
 void touch(const Domain<T>& domain, const CandidateList<T>& pairs) {
     const auto read = [](const auto& column) {

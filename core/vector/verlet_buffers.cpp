@@ -19,7 +19,8 @@ constexpr double inner_share = 0.25, inner_steps = 60;
 constexpr double outer_share = 2.0, outer_steps = 300;
 constexpr double most_buffer = 1.0;  // of the smallest radius [-]
 constexpr double least_inner = 0.2;  // of the skin: with less a search is due [-]
-// What adding up the way since a search in float may lose of it, 6e-8 with every build [-].
+// Displacements since the search are added up in float, which loses 6e-8 of them with every build.
+// This much is set aside for it [-].
 constexpr double lost_way = 1e-5;
 
 template <class T>

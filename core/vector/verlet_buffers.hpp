@@ -50,7 +50,8 @@ class VerletBuffers {
     void set_used_by_spheres(double share) { used_by_spheres_ = share; }
 
     /// Makes the present positions those of the inner list to be built. Throws SimulationError for
-    /// the first that is not a number. With `outer_holds`, follows the way since the search.
+    /// the first that is not a number. With `outer_holds`, adds up the displacements since the
+    /// search.
     void take_positions(bool outer_holds);
     /// Walls stand from now on where the inner lists were built.
     void take_walls();
@@ -67,8 +68,8 @@ class VerletBuffers {
     Remainder choose_inner(std::size_t d, std::size_t k, const BufferRules& rules);
     /// Outer buffer of the k-th sphere of a domain [m].
     double choose_outer(const Domain<T>& domain, std::size_t k, const BufferRules& rules);
-    /// A sphere searched for now, in an outer list of before: it is told to have been, at that
-    /// time, where the strain of the box would have brought it here from.
+    /// Gives a sphere that is searched for now a position at the last search: the one from which
+    /// the strain of the box alone would have brought it here. So it fits into the old outer list.
     void join_outer(std::size_t slot, const BufferRules& rules);
 
     double outer(std::size_t slot) const { return double{outer_.buffer[slot]}; }  ///< [m]

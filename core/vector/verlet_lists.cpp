@@ -126,10 +126,10 @@ void VerletLists<T>::link_ghosts() {
     });
 }
 
-/// Searches anew for those spheres alone that have used up their outer buffers, and chooses their
-/// inner ones. The search of all the others stays as it is: its positions are of before, so these
-/// spheres are put where they would have been at that time (join_outer). False if too many spheres
-/// are short, or if strain has used up much of the search: then all are to be searched for.
+/// Searches anew for those spheres alone that have used up their outer buffers, and gives them new
+/// ones. The outer pairs of all other spheres stay, with the positions of the last search. The few
+/// get a position of that time, too (join_outer). False if they are too many, or if the strain of
+/// the box has used up much of the outer buffers: then a search of all is due.
 template <class T>
 bool VerletLists<T>::rebuild_partially(const Shortage& shortage) {
     if (!shortage.exhausted) return true;

@@ -1,5 +1,6 @@
-// Forces of candidate pairs of spheres. Lanes spent on pairs that do not touch cost as much as
-// contacts: of the candidates that are not close, those that touch are picked out first.
+// Forces of candidate pairs of spheres. A lane costs the same whether its pair touches or not.
+// Close candidates mostly touch, so all of them go through the law. The others mostly do not, so
+// those that touch are picked out first.
 
 #if defined(GRAINFIELD_PAIR_KERNEL_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINFIELD_PAIR_KERNEL_INL

@@ -14,7 +14,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainfield::kernels::HWY_NAMESPACE {
 
-/// In double whatever T: what is kept in T is the result alone.
+/// Computes in double for every T, because a separation is a difference of nearly equal numbers.
+/// Only the result is rounded to T.
 template <class T>
 void prune(const BuiltPlace* places, const OuterPairs<T>& list) {
     using D = double;

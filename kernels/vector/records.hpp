@@ -13,8 +13,8 @@
 
 namespace grainfield::kernels {
 
-/// All that a contact needs. What it needs of two spheres are differences (u, v) and sums (the
-/// rest): these are formed from two whole records at once, and only the result is transposed.
+/// All that a contact needs. Of two spheres it needs differences (u, v) and sums (the rest). Both
+/// are formed from whole records, and only the result is transposed.
 template <class T>
 struct alignas(16 * sizeof(T)) SphereRecord {
     T u[3];            ///< displacement since the lists were built [m]
@@ -39,8 +39,8 @@ struct alignas(8 * sizeof(T)) SphereLoad {
 };
 static_assert(sizeof(SphereLoad<float>) == 32);
 
-/// Lists name a record by its number times this: an address is then a multiple that processors
-/// form as they load.
+/// Lists name a record by its number times this. The address of a record is then 8 times its entry
+/// in a list, and x86 multiplies by 8 as part of a load.
 template <class T>
 inline constexpr std::int32_t record_stride = sizeof(SphereRecord<T>) / 8;
 template <class T>
@@ -84,10 +84,9 @@ inline constexpr std::size_t padded(std::size_t n) {
     return (n + most_lanes - 1) / most_lanes * most_lanes;
 }
 
-/// Candidates are sorted by how much of their buffers two bodies must use up before they can
-/// meet: in the first distance bin, a short one, are those that touch or nearly do, the last may be
-/// left alone for long. A step looks at the bins that the motion since the build has brought into
-/// play.
+/// Candidates are sorted into bins by the share of their buffers that two bodies must use up before
+/// they can meet. Bin 0 is narrow: its pairs touch or nearly do. A step looks at the bins that
+/// motion since the build has brought into play, and at no others.
 inline constexpr std::size_t distance_bins = 8;
 inline constexpr double first_bin = 0.01;  ///< its length, as a share of the buffers [-]
 
@@ -112,10 +111,11 @@ struct OuterPairs {
     std::uint8_t* bin;          ///< `distance_bins` if they cannot meet before the next build
 };
 
-/// Candidate contacts, two spheres (or a sphere and a wall: b is unused) each. The kernels look at
-/// the first `size`. Of these the first `close`, most of which touch, go through the contact law as
-/// they are; from the others those that touch are picked out first. Both are multiples of
-/// most_lanes. One candidate, `idle`, is padding: it never touches, and its records count nowhere.
+/// The candidates that a step looks at: pairs of spheres, or a sphere and a wall (b is unused). The
+/// kernels take the first `size` of the list. The first `close` of these are bin 0: most touch, and
+/// all go through the contact law. Of the others only those that touch do. Both numbers are
+/// multiples of most_lanes. The candidate `idle` is padding: it never touches, and the loads of its
+/// records count nowhere.
 template <class T>
 struct Candidates {
     std::size_t size, close;

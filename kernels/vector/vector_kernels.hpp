@@ -28,8 +28,8 @@ template <class T>
 using VectorMoveKernel = MoveResult (*)(SphereRecord<T>*, const SphereLoad<T>*,
                                         const BodyColumns<T>&, const MoveParameters<T>&,
                                         std::size_t n);
-/// Separations and distance bins of the outer pairs: those of the last bin but one and below are
-/// the candidates of the inner list (pruning, as GROMACS calls it).
+/// Finds separation and distance bin of every outer pair. Those that get a bin become the
+/// candidates of the inner list; GROMACS calls this pruning.
 template <class T>
 using PruneKernel = void (*)(const BuiltPlace*, const OuterPairs<T>&);
 
