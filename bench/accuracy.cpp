@@ -199,9 +199,10 @@ void run(const Arguments& arguments) {
         ensembles.push_back(std::move(ensemble));
     }
 
-    const std::filesystem::path folder = std::filesystem::path(arguments.out.value_or(
-                                             arguments.quick ? "build/bench" : "bench/results")) /
-                                         (bench::cpu_name() + "-" + core::choose_kernels({}).isa);
+    const std::filesystem::path folder =
+        std::filesystem::path(
+            arguments.out.value_or(arguments.quick ? "build/bench" : "bench/results")) /
+        (bench::cpu_name() + "-" + kernels::name(core::choose_kernels({}).isa));
     std::filesystem::create_directories(folder);
     std::vector<Case> all;
     std::vector<bench::Panel> panels;

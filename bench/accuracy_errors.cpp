@@ -50,7 +50,7 @@ double rms_distance(const std::vector<double>& a, const std::vector<double>& b) 
 
 std::string kernels_columns(const Setting& setting) {
     const kernels::KernelTable& table = core::choose_kernels(setting.solver());
-    return fmt::format("{},{}", table.isa, table.precision);
+    return fmt::format("{},{}", kernels::name(table.isa), table.precision);
 }
 
 std::string deviation_columns(const Deviation& d) {

@@ -113,8 +113,9 @@ double expected_work(const Task& task) {
 }  // namespace
 
 core::SolverOptions Setting::solver() const {
-    if (reference_kernels) return {.precision = core::Precision::double_, .isa = core::Isa::scalar};
-    return {.precision = precision, .isa = core::Isa::automatic};
+    if (reference_kernels)
+        return {.precision = core::Precision::double_, .isa = kernels::InstructionSet::scalar};
+    return {.precision = precision};
 }
 
 std::vector<Series> make_series(const std::filesystem::path& packing, double last_strain,

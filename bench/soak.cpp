@@ -53,12 +53,12 @@ std::string soak(const core::Simulation& still, const NamedKernels& kernels, boo
         const core::Energy energy = simulation.energy();
         const double stress =
             core::mean_stress(simulation, core::box_dimensions(simulation).prod()).trace() / 3;
-        rows +=
-            fmt::format("{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{}\n",
-                        cycled ? "cycled" : "resting", kernels.name, kernels.table->isa,
-                        simulation.steps(), stress, least, most, energy.kinetic + energy.rotational,
-                        energy.elastic_normal + energy.elastic_shear, energy.closing(),
-                        energy.work_put_in, simulation.touching_contacts(), resident());
+        rows += fmt::format("{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{}\n",
+                            cycled ? "cycled" : "resting", kernels.name,
+                            kernels::name(kernels.table->isa), simulation.steps(), stress, least,
+                            most, energy.kinetic + energy.rotational,
+                            energy.elastic_normal + energy.elastic_shear, energy.closing(),
+                            energy.work_put_in, simulation.contacts().count(), resident());
     };
     look();
     for (std::int64_t cycle = 0; cycle < cycles; ++cycle) {

@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
     try {
         run.small = bench::stressed_sample(samples / "blocks-1x1x1-100kPa.h5", {1, 1, 1});
         run.large = bench::stressed_sample(samples / "blocks-2x4x2-100kPa.h5", {2, 4, 2});
-        run.folder = out / (bench::cpu_name() + "-" + bench::double_kernels().isa);
+        run.folder = out / (bench::cpu_name() + "-" + kernels::name(bench::double_kernels().isa));
         std::filesystem::create_directories(run.folder);
         for (const Part& part : parts)
             if (only.empty() || only == part.name) part.run(run);

@@ -31,7 +31,7 @@ void collisions(const StabilityRun& run) {
                 scene.damping = {damping, damping};
                 core::Simulation simulation(std::move(scene), double_kernels(),
                                             {.skin = 0, .ledger = true});
-                simulation.set_friction_angle(friction);
+                simulation.change().set_friction_angle(friction);
                 core::Monitor silent;
                 core::Driver driver(simulation, {{}, safety, 1}, silent);
                 simulation.compute_forces(true);

@@ -39,7 +39,7 @@ void set_stiffness(core::ParticleStore& s, double contrast) {
 bool come_to_rest(core::Simulation& simulation) {
     constexpr int look_interval = 500, most_looks = 200, calm_looks = 8;
     const core::Damping damping = simulation.scene().damping;
-    simulation.set_damping({0.7, 0.7});
+    simulation.change().set_damping({0.7, 0.7});
     simulation.compute_forces();
     // Contacts hardly change any more: one choice of masses and step serves to the end.
     const double step = core::StepControl({{}, 0.6, 10}).next(simulation);
@@ -49,11 +49,11 @@ bool come_to_rest(core::Simulation& simulation) {
         simulation.compute_forces(true);
         calm = simulation.unbalanced_force_ratio() < complete_rest ? calm + 1 : 0;
         // Spheres that spin freely between two others lose nothing by local damping.
-        if (calm == 0 && look % 5 == 0) simulation.scale_velocities(0);
+        if (calm == 0 && look % 5 == 0) simulation.change().scale_velocities(0);
     }
-    simulation.scale_velocities(0);
-    simulation.set_inertia_scale(std::vector<double>(simulation.size(), 1.0));
-    simulation.set_damping(damping);
+    simulation.change().scale_velocities(0);
+    simulation.change().set_inertia_scale(std::vector<double>(simulation.size(), 1.0));
+    simulation.change().set_damping(damping);
     simulation.compute_forces(true);
     return calm == calm_looks;
 }
@@ -63,7 +63,7 @@ std::vector<std::size_t> load_bearing(const core::Simulation& simulation) {
     std::vector<double> carried(simulation.size(), 0.0);
     std::vector<int> contacts(simulation.size(), 0);
     double sum = 0;
-    for (const core::TouchingContact& contact : simulation.touching())
+    for (const core::TouchingContact& contact : simulation.contacts().touching())
         for (const std::int32_t i : {contact.i, contact.j}) {
             if (i < 0) continue;
             const auto k = static_cast<std::size_t>(i);
@@ -96,17 +96,17 @@ core::Simulation reduced(const core::Simulation& simulation, const std::vector<s
         some.normal_stiffness[k] = s.normal_stiffness[i];
         some.friction_angle[k] = s.friction_angle[i];
     }
-    core::Simulation result(std::move(scene), simulation.kernel_table());
+    core::Simulation result(std::move(scene), simulation.stats().kernel_table());
     result.compute_forces();
     std::vector<core::ContactShear> contacts;
-    for (const core::TouchingContact& contact : simulation.touching()) {
+    for (const core::TouchingContact& contact : simulation.contacts().touching()) {
         const std::int32_t i = number[static_cast<std::size_t>(contact.i)];
         const std::int32_t j =
             contact.j < 0 ? contact.j : number[static_cast<std::size_t>(contact.j)];
         const bool both = i >= 0 && (contact.j < 0 || j >= 0);
         if (both) contacts.push_back({i, j, contact.shear});
     }
-    result.restore_shear(contacts);
+    result.change().restore_shear(contacts);
     return result;
 }
 
@@ -121,7 +121,7 @@ core::Simulation still_network(core::Scene scene, double contrast) {
     core::Monitor silent;
     core::Driver driver(simulation, {{}, 0.5, 3}, silent);
     packing::compress_isotropically(driver, confining_stress);
-    simulation.set_friction_angle(high_friction);
+    simulation.change().set_friction_angle(high_friction);
     for (int round = 0; round < most_rounds; ++round) {
         const bool rests = come_to_rest(simulation);
         const std::vector<std::size_t> kept = load_bearing(simulation);

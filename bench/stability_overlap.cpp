@@ -88,9 +88,9 @@ void start_overlaps(const StabilityRun& run) {
                 const core::Scene scene = inflated(run.small, 0.01 * percent);
                 const Burst b = burst(scene, *kernels.table, safety, time);
                 csv += fmt::format("{},{},{},{},{},{},{:.5g},{:.5g},{:.4g},{:.4g},{:.4g},{:.4g}\n",
-                                   percent, kernels.name, kernels.table->isa, safety, b.finite,
-                                   b.steps, b.step, b.elastic, b.closing, b.closing / b.elastic,
-                                   b.speed, b.kinetic_left / b.elastic);
+                                   percent, kernels.name, kernels::name(kernels.table->isa), safety,
+                                   b.finite, b.steps, b.step, b.elastic, b.closing,
+                                   b.closing / b.elastic, b.speed, b.kinetic_left / b.elastic);
                 bursts.row(percent, b.closing / b.elastic, b.speed);
             }
             say(fmt::format("overlap: {}, safety {}", kernels.name, safety));

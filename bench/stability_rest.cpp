@@ -33,7 +33,7 @@ core::Simulation settled(const core::Scene& scene) {
                         stress, simulation.unbalanced_force_ratio()));
         if (std::abs(stress / confining_stress - 1) < lost + 2e-3) break;
     }
-    simulation.scale_velocities(0);
+    simulation.change().scale_velocities(0);
     return simulation;
 }
 
@@ -45,7 +45,7 @@ core::Simulation compressed(const core::Scene& scene) {
     core::Monitor silent;
     core::Driver driver(simulation, {}, silent);
     packing::compress_isotropically(driver, confining_stress);
-    simulation.scale_velocities(0);
+    simulation.change().scale_velocities(0);
     return simulation;
 }
 
@@ -63,14 +63,14 @@ State state(core::Simulation& simulation) {
     return {.kinetic = energy.kinetic + energy.rotational,
             .elastic = energy.elastic_normal + energy.elastic_shear,
             .stress = core::mean_stress(simulation, volume).trace() / 3,
-            .contacts = simulation.touching_contacts(),
+            .contacts = simulation.contacts().count(),
             .position = simulation.spheres().position};
 }
 
 /// Spheres that are no rattlers: with four contacts or more.
 std::vector<std::size_t> held(const core::Simulation& simulation) {
     std::vector<int> contacts(simulation.size(), 0);
-    for (const core::TouchingContact& contact : simulation.touching())
+    for (const core::TouchingContact& contact : simulation.contacts().touching())
         for (const std::int32_t i : {contact.i, contact.j})
             if (i >= 0) ++contacts[static_cast<std::size_t>(i)];
     std::vector<std::size_t> spheres;
@@ -107,9 +107,9 @@ std::string leave_alone(const core::Simulation& still, const std::string& name,
         now = state(simulation);
         change = now.stress / start.stress - 1;
         csv += fmt::format("{},{},{},{},{:.5g},{},{:.4g},{:.6g},{:.8g},{:.4g},{:.4g},{}\n", name,
-                           kernels.name, kernels.table->isa, alpha, step, simulation.steps(),
-                           now.kinetic, now.elastic, now.stress, change, drift(start, now, spheres),
-                           now.contacts);
+                           kernels.name, kernels::name(kernels.table->isa), alpha, step,
+                           simulation.steps(), now.kinetic, now.elastic, now.stress, change,
+                           drift(start, now, spheres), now.contacts);
         if (simulation.steps() > 0)
             rests.row(simulation.steps(), std::max(1e-30, now.kinetic) / start.elastic,
                       std::max(1e-16, std::abs(change)));
@@ -144,7 +144,7 @@ void long_rest(const StabilityRun& run) {
         const std::int64_t steps = kernels.name == "reference" ? most_steps / 10 : most_steps;
         csv += leave_alone(early, "compressed", kernels, steps / 10, rests);
         for (const core::Damping damping : {run.small.damping, core::Damping{}}) {
-            still.set_damping(damping);
+            still.change().set_damping(damping);
             csv += leave_alone(still, "settled", kernels, steps, rests);
         }
     }

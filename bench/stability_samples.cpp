@@ -11,13 +11,13 @@
 namespace grainfield::bench {
 
 const kernels::KernelTable& double_kernels() {
-    return core::choose_kernels({core::Precision::double_, core::Isa::automatic});
+    return core::choose_kernels({.precision = core::Precision::double_});
 }
 
 std::vector<NamedKernels> compared_kernels() {
     return {{"reference", &kernels::reference_kernels()},
             {"double", &double_kernels()},
-            {"mixed", &core::choose_kernels({core::Precision::mixed, core::Isa::automatic})}};
+            {"mixed", &core::choose_kernels({.precision = core::Precision::mixed})}};
 }
 
 void say(std::string_view line) {
@@ -29,9 +29,9 @@ core::Simulation copy_of(const core::Simulation& simulation, const kernels::Kern
     core::Simulation copy(simulation.scene(), kernels, options);
     copy.compute_forces();  // finds the neighbours, without whom there is no shear force to set
     std::vector<core::ContactShear> contacts;
-    for (const core::TouchingContact& contact : simulation.touching())
+    for (const core::TouchingContact& contact : simulation.contacts().touching())
         contacts.push_back({contact.i, contact.j, contact.shear});
-    copy.restore_shear(contacts);
+    copy.change().restore_shear(contacts);
     copy.compute_forces(true);
     return copy;
 }

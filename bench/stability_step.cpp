@@ -35,7 +35,7 @@ double largest_alternation(const core::Simulation& still, double step, double en
     constexpr int look_interval = 20;
     core::Simulation simulation = copy_of(still, double_kernels());
     const core::RandomStream random(1, core::Stream::perturbation);
-    simulation.add_velocities([&](std::size_t i, const Vec3&) -> Vec3 {
+    simulation.change().add_velocities([&](std::size_t i, const Vec3&) -> Vec3 {
         return perturbation / step *
                Vec3(random.normal(0, 3 * i), random.normal(0, 3 * i + 1),
                     random.normal(0, 3 * i + 2));
@@ -83,7 +83,7 @@ double sum_bound(const core::Simulation& simulation) {
     }
     double largest = 0;
     for (std::size_t i = 0; i < sum.size(); ++i)
-        largest = std::max(largest, sum[i] * simulation.inverse_inertial_mass(i));
+        largest = std::max(largest, sum[i] * simulation.sphere(i).inverse_inertial_mass());
     return 2 / std::sqrt(largest);
 }
 
@@ -105,20 +105,20 @@ void largest_stable_step(const StabilityRun& run) {
         const double step = core::StepControl({}).next(still);
         const std::vector<double> local = core::local_square_frequencies(still);
         const double fixed = 2 / std::sqrt(*std::max_element(local.begin(), local.end()));
-        const double sum = sum_bound(still), caught = 2 / core::caught_frequency(still, 0);
+        const double sum = sum_bound(still), caged = 2 / core::caged_frequency(still, 0);
         std::vector<double> limits;
         for (const core::Damping damping : {core::Damping{}, sample.damping}) {
-            still.set_damping(damping);
+            still.change().set_damping(damping);
             limits.push_back(smallest_unstable_step(still, estimate));
             csv += fmt::format(
                 "lognormal,{},{},{},{},{:.6g},{:.6g},{:.5f},{:.5f},{:.6g},{:.6g},{:.6g},{:.6g},"
                 "{:.4f}\n",
-                contrast, damping.force, still.size(), still.touching_contacts(), estimate,
+                contrast, damping.force, still.size(), still.contacts().count(), estimate,
                 limits.back(), limits.back() / estimate, 1 / std::sqrt(1 - damping.force), fixed,
-                sum, caught, step, step / limits.back());
+                sum, caged, step, step / limits.back());
         }
         bounds.row(contrast, estimate / limits[0], limits[1] / limits[0], fixed / limits[0],
-                   sum / limits[0], caught / limits[0], step / limits[0]);
+                   sum / limits[0], caged / limits[0], step / limits[0]);
         say(fmt::format("step: contrast {}: limit over estimate {:.4f} undamped, {:.4f} damped",
                         contrast, limits[0] / estimate, limits[1] / estimate));
     }

@@ -53,7 +53,7 @@ void report_rates(benchmark::State& state, const core::Simulation& simulation) {
     state.SetItemsProcessed(state.iterations() *
                             static_cast<std::int64_t>(simulation.spheres().size()));
     state.counters["spheres"] = static_cast<double>(simulation.spheres().size());
-    state.counters["contacts"] = static_cast<double>(simulation.touching_contacts());
+    state.counters["contacts"] = static_cast<double>(simulation.contacts().count());
 }
 
 /// The whole step, by kernels: list, forces, motion.
@@ -83,7 +83,7 @@ void forces_only(benchmark::State& state, const kernels::KernelTable* kernels) {
 void search_and_forces(benchmark::State& state, const kernels::KernelTable* kernels) {
     core::Simulation simulation(disordered_lattice(33), *kernels);
     for (auto _ : state) {
-        simulation.rebuild_lists();
+        simulation.change().rebuild_lists();
         simulation.compute_forces();
     }
     report_rates(state, simulation);
@@ -97,7 +97,8 @@ const bool registered = [] {
             for (const auto* table : {kernels::double_table(isa), kernels::mixed_table(isa)})
                 tables.push_back(table);
     for (const auto* table : tables) {
-        const std::string name = std::string("/") + (table->reference ? "reference" : table->isa) +
+        const std::string name = std::string("/") +
+                                 (table->reference ? "reference" : kernels::name(table->isa)) +
                                  "/" + table->precision;
         const auto add = [&](const std::string& stage, auto run) {
             benchmark::RegisterBenchmark((stage + name).c_str(), run)

@@ -41,7 +41,7 @@ class ShearedSample {
             servos_.emplace_back(wall, core::WallServo::Options{.stress = confining_stress,
                                                                 .max_speed = 0.25 * size.x()});
         const Vec3 low = simulation_.walls()[2].point;
-        simulation_.add_velocities([&](std::size_t, const Vec3& x) {
+        simulation_.change().add_velocities([&](std::size_t, const Vec3& x) {
             return Vec3(0, -strain_rate * (x.y() - low.y()), 0);
         });
         simulation_.compute_forces(true);
@@ -102,9 +102,9 @@ Measured measure(std::vector<Case>& cases, int rounds, int steps, double triad,
     for (Case& c : cases) c.sample->run(300);  // the jolt of the start dies away
     std::vector<std::int64_t> builds, searches, renewals;
     for (const Case& c : cases) {
-        builds.push_back(c.sample->simulation().list_builds());
-        searches.push_back(c.sample->simulation().neighbour_searches());
-        renewals.push_back(c.sample->simulation().neighbour_renewals());
+        builds.push_back(c.sample->simulation().stats().list_builds());
+        searches.push_back(c.sample->simulation().stats().searches());
+        renewals.push_back(c.sample->simulation().stats().partial_rebuilds());
     }
     for (int r = 0; r < rounds; ++r)
         for (Case& c : cases) c.milliseconds.push_back(1e3 * c.sample->run(steps) / steps);
@@ -115,9 +115,9 @@ Measured measure(std::vector<Case>& cases, int rounds, int steps, double triad,
         const core::Simulation& sim = c.sample->simulation();
         const double ms = bench::median(c.milliseconds);
         const auto spheres = static_cast<double>(sim.size());
-        const auto contacts = static_cast<double>(sim.touching_contacts());
+        const auto contacts = static_cast<double>(sim.contacts().count());
         const double traffic = least_traffic(spheres, contacts);
-        const core::StepCost cost = sim.step_cost();
+        const core::StepCost cost = sim.stats().step_cost();
         const double thousands = rounds * steps / 1e3;
         const double memory = grown / static_cast<double>(cases.size()) / spheres;
         measured.points.push_back({c.isa, c.precision, c.threads, spheres, ms, memory});
@@ -125,13 +125,13 @@ Measured measure(std::vector<Case>& cases, int rounds, int steps, double triad,
             "{},{},{},{},{},{},{:.4f},{:.4g},{:.4g},{:.4g},{:.4g},{:.2f},{:.4g},{:.3f},{:.4f},{:."
             "1f},"
             "{:.1f},{:.1f},{:.0f}\n",
-            c.name, sim.size(), sim.touching_contacts(), c.isa, c.precision, c.threads, ms,
+            c.name, sim.size(), sim.contacts().count(), c.isa, c.precision, c.threads, ms,
             1e3 * spheres / ms, 1e3 * contacts / ms, traffic, triad, ms / (1e3 * traffic / triad),
             cost.bytes, cost.bytes / (1e-3 * ms) / triad,
             static_cast<double>(cost.evaluated) / contacts,
-            static_cast<double>(sim.list_builds() - builds[k]) / thousands,
-            static_cast<double>(sim.neighbour_searches() - searches[k]) / thousands,
-            static_cast<double>(sim.neighbour_renewals() - renewals[k]) / thousands, memory);
+            static_cast<double>(sim.stats().list_builds() - builds[k]) / thousands,
+            static_cast<double>(sim.stats().searches() - searches[k]) / thousands,
+            static_cast<double>(sim.stats().partial_rebuilds() - renewals[k]) / thousands, memory);
         fmt::print("{:>10} {:>8} spheres  {:>6} {:>6} {} threads  {:8.3f} ms a step\n", c.name,
                    sim.size(), c.isa, c.precision, c.threads, ms);
     }
@@ -141,7 +141,7 @@ Measured measure(std::vector<Case>& cases, int rounds, int steps, double triad,
 Case make_case(const std::string& name, const core::Scene& scene,
                const kernels::KernelTable& kernels, int threads) {
     return {name,
-            kernels.isa,
+            kernels::name(kernels.isa),
             kernels.precision,
             threads,
             std::make_unique<ShearedSample>(scene, kernels, threads),
@@ -189,8 +189,8 @@ void at_rest(const core::Scene& full) {
     };
     steps(20);
     const double ms = 1e3 * steps(200) / 200;
-    fmt::print("Grainfield  {:8.2f} ms a step ({}, {}), {:.0f} B a sphere\n", ms, best().isa,
-               best().precision,
+    fmt::print("Grainfield  {:8.2f} ms a step ({}, {}), {:.0f} B a sphere\n", ms,
+               kernels::name(best().isa), best().precision,
                static_cast<double>(bench::bytes_in_use() - before) /
                    static_cast<double>(full.spheres.size()));
 }
@@ -239,7 +239,8 @@ int main(int argc, char** argv) {
         const double triad = bench::triad_bandwidth(std::size_t{24} << 20);
         fmt::print("{}, triad over 24 MB: {:.1f} GB/s\n", bench::cpu_name(), triad / 1e9);
         const core::Scene full = bench::full_sample(sample);
-        const std::filesystem::path folder = out / (bench::cpu_name() + "-" + best().isa);
+        const std::filesystem::path folder =
+            out / (bench::cpu_name() + "-" + kernels::name(best().isa));
         std::filesystem::create_directories(folder);
         step_rates(full, folder, rounds, triad);
         if (large) sizes(full, folder, rounds, triad);

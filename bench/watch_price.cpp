@@ -39,7 +39,7 @@ void measure(const core::Scene& scene, int rounds) {
         for (std::int64_t k = 0; k < core::Driver::watch_interval; ++k)
             simulation.step(step, [] {});
         const double middle = processor_time();
-        simulation.check_state();
+        simulation.health().check();
         steps.push_back(middle - start);
         looks.push_back(processor_time() - middle);
     }

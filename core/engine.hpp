@@ -52,12 +52,12 @@ class Engine {
     }
 
     /// Brings the store's positions, velocities and spins up to date.
-    virtual void pull() = 0;
+    virtual void download() = 0;
     /// Brings world.force and world.moment up to date; forces must be current.
-    virtual void pull_resultants() = 0;
+    virtual void download_resultants() = 0;
     /// Takes over velocities, spins and properties changed in the store.
-    virtual void push() = 0;
-    /// Multiplies velocities and spins; the store has to be pulled afterwards.
+    virtual void upload() = 0;
+    /// Multiplies velocities and spins; the store is out of date until the next download().
     virtual void scale_velocities(double factor) = 0;
     /// Takes over walls that were replaced: history with the old ones is lost.
     virtual void forget_walls() = 0;
@@ -68,7 +68,8 @@ class Engine {
     virtual std::vector<TouchingContact> touching() const = 0;
     virtual std::int64_t touching_count() const = 0;
     virtual std::int64_t candidate_count() const = 0;  ///< in the lists, walls too [-]
-    /// Pairs of spheres, i < j in no particular order, that may touch before the next search.
+    /// Outer list: pairs of spheres, i < j in no particular order, that may touch before the next
+    /// search.
     virtual std::vector<kernels::Pair> neighbours() const = 0;
     /// Sum over spheres of |resultant force|; forces must be current [N].
     virtual double resultant_sum() = 0;
@@ -85,13 +86,13 @@ class Engine {
     /// True if the last step gives reason to look at once: a sphere moved more than half its
     /// radius, or two overlap too much. It may look sound again a few steps later.
     virtual bool alarmed() const = 0;
-    virtual std::int64_t list_builds() const = 0;
+    virtual std::int64_t list_builds() const = 0;  ///< of the inner list, so far [-]
     /// Of the step taken last.
     virtual StepCost step_cost() const { return {0, touching_count()}; }
-    /// Neighbour searches so far: some builds choose among known neighbours [-].
+    /// Builds of the outer list so far; of inner ones there are more [-].
     virtual std::int64_t searches() const { return list_builds(); }
-    /// Searches so far for the neighbours of a few spheres alone [-].
-    virtual std::int64_t renewals() const { return 0; }
+    /// Of the outer list, for a few spheres alone, so far [-].
+    virtual std::int64_t partial_rebuilds() const { return 0; }
 
   protected:
     World& world_;

@@ -21,17 +21,11 @@ const kernels::KernelTable* usable(InstructionSet isa, Precision precision) {
                                          : kernels::double_table(isa);
 }
 
-InstructionSet wanted_set(Isa isa) {
-    return isa == Isa::avx512 ? InstructionSet::avx512
-           : isa == Isa::avx2 ? InstructionSet::avx2
-                              : InstructionSet::scalar;
-}
-
 }  // namespace
 
 const kernels::KernelTable& choose_kernels(const SolverOptions& options) {
-    if (options.isa != Isa::automatic) {
-        const InstructionSet isa = wanted_set(options.isa);
+    if (options.isa) {
+        const InstructionSet isa = *options.isa;
         if (const auto* table = usable(isa, options.precision)) return *table;
         std::string allowed = "\"auto\"";
         for (const InstructionSet other : kernels::instruction_sets)
@@ -45,10 +39,6 @@ const kernels::KernelTable& choose_kernels(const SolverOptions& options) {
     for (const InstructionSet isa : kernels::instruction_sets)
         if (const auto* table = usable(isa, options.precision)) best = table;
     return *best;
-}
-
-Isa isa_of(std::string_view name) {
-    return name == "avx512" ? Isa::avx512 : name == "avx2" ? Isa::avx2 : Isa::scalar;
 }
 
 }  // namespace grainfield::core

@@ -14,7 +14,7 @@ Simulation::Simulation(Scene scene, const kernels::KernelTable& kernels, Simulat
       engine_(make_engine(*world_, kernels)) {}
 
 const Scene& Simulation::scene() const {
-    if (!store_current_) engine_->pull();
+    if (!store_current_) engine_->download();
     store_current_ = true;
     return world_->scene;
 }
@@ -50,18 +50,23 @@ void Simulation::move_walls(double step) {
 
 // --- views ---------------------------------------------------------------------------------------
 
-kernels::OnStep Simulation::on_step(std::size_t i) const {
-    scene();
-    resultant(i);
-    const Inertias inertia(*world_, i, i + 1);
-    return kernels::on_step_motion(motion_columns(*world_, i, inertia),
-                                   motion_parameters(*world_, 0.0), world_->motion_features(), 0);
+const Vec3Column& Simulation::resultants() const {
+    if (!resultants_current_) engine_->download_resultants();
+    resultants_current_ = true;
+    return world_->force;
 }
 
-Vec3 Simulation::resultant(std::size_t i) const {
-    if (!resultants_current_) engine_->pull_resultants();
-    resultants_current_ = true;
-    return world_->force[i];
+Vec3 SphereView::resultant() const {
+    return simulation_.resultants()[i_];
+}
+
+kernels::OnStep SphereView::on_step() const {
+    World& world = *simulation_.world_;
+    simulation_.scene();
+    simulation_.resultants();
+    const Inertias inertia(world, i_, i_ + 1);
+    return kernels::on_step_motion(motion_columns(world, i_, inertia),
+                                   motion_parameters(world, 0.0), world.motion_features(), 0);
 }
 
 double Simulation::unbalanced_force_ratio() const {
@@ -76,7 +81,7 @@ double Simulation::unbalanced_force_ratio() const {
 
 Energy Simulation::energy() const {
     scene();
-    if (world_->size() > 0) resultant(0);
+    if (world_->size() > 0) resultants();
     const kernels::MotionParameters p = motion_parameters(*world_, 0.0);
     const kernels::StateSums state =
         sum_chunks<kernels::StateSums>(world_->size(), [&](std::size_t begin, std::size_t end) {

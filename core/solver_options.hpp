@@ -3,6 +3,8 @@
 
 #include <optional>
 
+#include "kernels/instruction_set.hpp"
+
 namespace grainfield::core {
 
 /// Local (non-viscous, Cundall) damping.
@@ -18,12 +20,11 @@ struct TimeOptions {
         1.0;  ///< >= 1; light spheres get the mass that a step this many times larger needs [-]
 };
 
-enum class Isa { automatic, scalar, avx2, avx512 };
 enum class Precision { double_, mixed };
 
 struct SolverOptions {
     Precision precision = Precision::mixed;
-    Isa isa = Isa::automatic;
+    std::optional<kernels::InstructionSet> isa = {};  ///< unset: the widest that runs here
 };
 
 }  // namespace grainfield::core

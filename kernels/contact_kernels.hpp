@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 
+#include "kernels/instruction_set.hpp"
 #include "kernels/vec3.hpp"
 
 namespace grainfield::kernels {
@@ -121,7 +122,7 @@ struct VectorKernels;  // kernels/vector/
 
 /// One set of kernels; exactly one of the three is there.
 struct KernelTable {
-    const char* isa;        ///< "scalar", "avx2", "avx512"
+    InstructionSet isa;
     const char* precision;  ///< "double", "mixed"
     const ReferenceKernels* reference;
     const VectorKernels<float>* mixed;

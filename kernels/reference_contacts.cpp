@@ -183,7 +183,7 @@ WallKernel choose_walls(ContactFeatures f) {
 }
 
 constexpr ReferenceKernels kernels{choose_pairs, choose_walls};
-constexpr KernelTable table{"scalar", "double", &kernels, nullptr, nullptr};
+constexpr KernelTable table{InstructionSet::scalar, "double", &kernels, nullptr, nullptr};
 
 }  // namespace
 

@@ -52,14 +52,14 @@ class BlockPacker {
           simulation_(std::move(scene), kernels::reference_kernels()),
           driver_(simulation_, core::TimeOptions{}, monitor),
           random_(options.seed, core::Stream::packing_shaking) {
-        simulation_.set_wall_point(lid, Vec3(0, lid_height, 0));
+        simulation_.change().set_wall_point(lid, Vec3(0, lid_height, 0));
     }
 
     /// Runs under gravity along -y (or +y: reversed) until at rest_ratio; the lid stays where it
     /// is.
     void settle(const char* stage, bool reversed = false) {
         driver_.monitor().begin(stage);
-        simulation_.set_gravity(reversed ? Vec3(-gravity()) : gravity());
+        simulation_.change().set_gravity(reversed ? Vec3(-gravity()) : gravity());
         simulation_.set_wall_velocity(lid, Vec3::Zero());
         const double deadline = simulation_.time() + 30.0;
         double ratio = 1;
@@ -72,7 +72,7 @@ class BlockPacker {
                 if (!look) return;
                 ratio = simulation_.unbalanced_force_ratio();
                 speed = mean_speed();
-                if (ratio < damped_below) simulation_.scale_velocities(damped_to);
+                if (ratio < damped_below) simulation_.change().scale_velocities(damped_to);
             });
             if (simulation_.steps() % 2000 == 0)
                 driver_.monitor().progress(-1, simulation_.steps(),
@@ -90,7 +90,7 @@ class BlockPacker {
     /// Shakes for a bout with the lid pressing lightly; the lid never goes below b_y. Without
     /// friction strength and pace differ from bout to bout.
     void shake(double friction_angle) {
-        simulation_.set_friction_angle(friction_angle);
+        simulation_.change().set_friction_angle(friction_angle);
         const double area = options_.block.x() * options_.block.z();
         core::WallServo servo(lid, {.stress = lid_stress_share * own_stress(), .max_speed = 0.2});
         const double start = simulation_.time();
@@ -106,9 +106,9 @@ class BlockPacker {
             driver_.safe_point();
             const double angle = 2 * std::numbers::pi * frequency * (simulation_.time() - start);
             const double a = acceleration * options_.gravity;
-            simulation_.set_gravity(gravity() + Vec3(a * std::sin(angle + phase_x),
-                                                     0.5 * a * std::sin(2 * angle),
-                                                     a * std::sin(angle + phase_z)));
+            simulation_.change().set_gravity(gravity() + Vec3(a * std::sin(angle + phase_x),
+                                                              0.5 * a * std::sin(2 * angle),
+                                                              a * std::sin(angle + phase_z)));
             driver_.step(false, [&](double step) {
                 servo.steer(simulation_, area, step);
                 const double down = -simulation_.walls()[lid].velocity.y();
@@ -213,7 +213,8 @@ Block pack_block(const PackingOptions& options, const Grading& grading, const Ma
                         "under gravity alone it settles at "
                         "{:.4f}",
                         options.porosity, settled));
-    simulation.set_wall_point(lid, Vec3(0, std::max(block.settled_height, options.block.y()), 0));
+    simulation.change().set_wall_point(
+        lid, Vec3(0, std::max(block.settled_height, options.block.y()), 0));
 
     monitor.begin("compacting the block");
     const double limit = 2 * packer.own_stress();
@@ -241,7 +242,7 @@ Block pack_block(const PackingOptions& options, const Grading& grading, const Ma
             }
             continue;
         }
-        simulation.set_friction_angle(material.friction_angle);
+        simulation.change().set_friction_angle(material.friction_angle);
         packer.settle("settling the compacted block");
         block.mean_stress = packer.mean_stress();
         if (block.mean_stress <= limit) break;

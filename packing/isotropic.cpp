@@ -8,7 +8,7 @@
 
 #include "core/drive/box.hpp"
 #include "core/drive/servo.hpp"
-#include "core/state/part_of.hpp"
+#include "core/state/section_of.hpp"
 
 namespace grainfield::packing {
 namespace {
@@ -36,8 +36,8 @@ IsotropicResult compress_isotropically(core::Driver& driver, double stress) {
                    .stress = stress,
                    .max_speed = 0.5 * most_strain_rate * start[static_cast<int>(w) / 2]});
     IsotropicResult result;
-    const auto part =
-        core::part_of(driver.checkpoint(), "isotropic compression", [&](auto& archive) {
+    const auto section =
+        core::section_of(driver.checkpoint(), "isotropic compression", [&](auto& archive) {
             archive(core::bytes(result));
             for (core::WallServo& servo : servos) archive(servo);
         });
@@ -59,7 +59,7 @@ IsotropicResult compress_isotropically(core::Driver& driver, double stress) {
             if (worst < relaxed_within) {
                 const double limit = driver.control().limit();
                 const double share = limit > 0 ? step / limit / relaxed_step : 1.0;
-                simulation.scale_velocities(std::pow(relaxed_to, share));
+                simulation.change().scale_velocities(std::pow(relaxed_to, share));
             }
             reached = worst < stress_tolerance && result.unbalanced_force_ratio < isotropic_rest;
         });

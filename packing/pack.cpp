@@ -4,7 +4,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/drive/driver.hpp"
 #include "core/kernel_choice.hpp"
-#include "core/state/part_of.hpp"
+#include "core/state/section_of.hpp"
 #include "core/state/world_state.hpp"
 #include "packing/flip.hpp"
 #include "packing/isotropic.hpp"
@@ -80,8 +80,8 @@ void compress(Packing& packing, core::Driver& driver, const Material& material, 
     core::Simulation& simulation = driver.simulation();
     driver.monitor().begin("compressing the sample isotropically");
     if (!resumed) {
-        simulation.set_gravity(Vec3::Zero());
-        simulation.set_walls(core::box_walls(packing.box, box_wall(material)));
+        simulation.change().set_gravity(Vec3::Zero());
+        simulation.change().set_walls(core::box_walls(packing.box, box_wall(material)));
         driver.control().reset();
     }
     packing.isotropic_stress = *packing.options.isotropic_stress;
@@ -105,7 +105,7 @@ Packing pack(const PackingOptions& options, const Grading& grading, const Materi
     Packing packing;
     packing.options = options;
     packing.grading = grading;
-    const auto part = core::part_of(checkpoint, "packing", [&](auto& archive) {
+    const auto section = core::section_of(checkpoint, "packing", [&](auto& archive) {
         archive(core::bytes(done), watch);
         if (done != Done::nothing) archive_packing(archive, packing);
     });
@@ -114,7 +114,7 @@ Packing pack(const PackingOptions& options, const Grading& grading, const Materi
         packing.block_seconds = watch.lap();
         done = Done::block;
     }
-    const bool resumed = part.resumed() && checkpoint->resuming();
+    const bool resumed = section.resumed() && checkpoint->resuming();
     const Vec3 size(options.block.x() * options.blocks[0], options.block.y() * options.blocks[1],
                     options.block.z() * options.blocks[2]);
     core::Simulation simulation(
@@ -133,7 +133,7 @@ Packing pack(const PackingOptions& options, const Grading& grading, const Materi
     packing.steps = simulation.steps();
     packing.porosity = 1 - simulation.spheres().solid_volume() / packing.box.volume();
     packing.state_hash = simulation.state_hash();
-    simulation.scale_velocities(0.0);
+    simulation.change().scale_velocities(0.0);
     packing.spheres = simulation.spheres();
     return packing;
 }

@@ -8,7 +8,7 @@
 
 #include "core/drive/measures.hpp"
 #include "core/drive/servo.hpp"
-#include "core/state/part_of.hpp"
+#include "core/state/section_of.hpp"
 
 namespace grainfield::packing {
 namespace {
@@ -35,9 +35,10 @@ void settle_under_gravity(core::Driver& driver, std::size_t floor_wall, double g
 
     double ratio = 1, floor_error = 1;
     std::int64_t steps = 0;
-    const auto part = core::part_of(driver.checkpoint(), "settling",
-                                    [&](auto& archive) { archive(ratio, floor_error, steps); });
-    if (!part.resumed()) simulation.set_gravity(Vec3(0, -gravity, 0));
+    const auto section = core::section_of(driver.checkpoint(), "settling", [&](auto& archive) {
+        archive(ratio, floor_error, steps);
+    });
+    if (!section.resumed()) simulation.change().set_gravity(Vec3(0, -gravity, 0));
     for (;; ++steps) {
         driver.safe_point();
         const bool look = steps % look_every == 0;
@@ -45,7 +46,8 @@ void settle_under_gravity(core::Driver& driver, std::size_t floor_wall, double g
             if (!look) return;
             ratio = simulation.unbalanced_force_ratio();
             floor_error = core::wall_compression(simulation, floor_wall) / weight - 1;
-            if (std::abs(floor_error) < calmed_within) simulation.scale_velocities(calmed_to);
+            if (std::abs(floor_error) < calmed_within)
+                simulation.change().scale_velocities(calmed_to);
         });
         if (!look) continue;
         if (ratio < settled_ratio && std::abs(floor_error) < floor_tolerance &&
@@ -62,7 +64,7 @@ void settle_under_gravity(core::Driver& driver, std::size_t floor_wall, double g
                 "{:.2g} after {} steps",
                 ratio, steps));
     }
-    simulation.scale_velocities(0.0);
+    simulation.change().scale_velocities(0.0);
     simulation.compute_forces(true);
 }
 

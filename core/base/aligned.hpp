@@ -34,8 +34,8 @@ struct LineAllocator {
 template <class T>
 using Aligned = std::vector<T, LineAllocator<T>>;
 
-/// Resizes a list whose length changes a little every time: a little reserve instead of the
-/// doubling of a vector, which would never be used.
+/// Resizes a list whose length changes a little every time. It grows with 3 % to spare; a vector
+/// would double its memory, most of it never used.
 template <class Column>
 void resize_list(Column& column, std::size_t n) {
     if (column.capacity() < n) {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/drive/measures.hpp"
-#include "core/state/part_of.hpp"
+#include "core/state/section_of.hpp"
 
 namespace grainfield::core {
 
@@ -13,7 +13,7 @@ Driver::Driver(Simulation& simulation, const TimeOptions& time, Monitor& monitor
       control_(time),
       monitor_(monitor),
       checkpoint_(checkpoint),
-      part_(
+      section_(
           checkpoint, "simulation",
           [this](StateWriter& archive) {
               simulation_.save(archive);

@@ -42,16 +42,18 @@ class Driver {
                 const double step = control_.next(simulation_);
                 simulation_.step(step, [&] { steer(step); });
             }
-            if (simulation_.steps() % watch_interval == 0 || simulation_.alarmed()) watch();
+            if (simulation_.steps() % watch_interval == 0 || simulation_.health().alarmed())
+                watch();
         } catch (const SimulationError&) {
             monitor_.ended_early(simulation_);
             throw;
         }
     }
 
-    /// To be called between steps, where all state of the work is in its parts of the checkpoint:
-    /// saves if it is time to. If the user asked to stop, saves (where there is a checkpoint) and
-    /// throws Interrupted. A save that fails while the run goes on is told to the monitor.
+    /// To be called between steps, where all state of the work is in its sections of the
+    /// checkpoint: saves if it is time to. If the user asked to stop, saves (where there is a
+    /// checkpoint) and throws Interrupted. A save that fails while the run goes on is told to the
+    /// monitor.
     void safe_point() {
         if (monitor_.stop_requested()) stop();
         if (checkpoint_ != nullptr && checkpoint_->due()) save();
@@ -71,7 +73,7 @@ class Driver {
     }
 
     /// Throws SimulationError if the state is broken.
-    void watch() { simulation_.check_state(); }
+    void watch() { simulation_.health().check(); }
 
     /// Ends a run that cannot reach what it should; the monitor hears of it first.
     [[noreturn]] void fail(const std::string& what) {
@@ -99,7 +101,7 @@ class Driver {
     std::int64_t next_energy_ = 0;
     std::optional<double> most_kinetic_;  // [J]
     std::int64_t next_kinetic_ = 0;
-    Checkpoint::Part part_;  // last: it loads what stands above
+    Checkpoint::Section section_;  // last: it loads what stands above
 };
 
 }  // namespace grainfield::core

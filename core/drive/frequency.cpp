@@ -23,7 +23,7 @@ std::vector<ContactSpring> contact_springs(const Simulation& simulation) {
     const bool friction =
         scene.stiffness_ratio > 0 && std::any_of(s.friction_angle.begin(), s.friction_angle.end(),
                                                  [](double f) { return f > 0; });
-    const std::vector<TouchingContact> contacts = simulation.touching();
+    const std::vector<TouchingContact> contacts = simulation.contacts().touching();
     std::vector<ContactSpring> springs(contacts.size());
     for_chunks(contacts.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
@@ -68,8 +68,8 @@ std::vector<double> stiffness_on_mass(const Simulation& simulation,
     std::vector<double> sum(simulation.size(), 0.0);
     for (const ContactSpring& k : springs) {
         const double stiffness = k.kn + 2 * k.ks;
-        sum[k.i] += stiffness * simulation.inverse_inertial_mass(k.i);
-        if (k.j >= 0) sum[k.j] += stiffness * simulation.inverse_inertial_mass(k.j);
+        sum[k.i] += stiffness * simulation.sphere(k.i).inverse_inertial_mass();
+        if (k.j >= 0) sum[k.j] += stiffness * simulation.sphere(k.j).inverse_inertial_mass();
     }
     return sum;
 }
@@ -118,8 +118,8 @@ void FrequencyEstimator::assemble(const Simulation& simulation) {
     }
     scale_.resize(2 * spheres_);
     for (std::size_t i = 0; i < spheres_; ++i) {
-        scale_[2 * i] = std::sqrt(simulation.inverse_inertial_mass(sphere_[i]));
-        scale_[2 * i + 1] = std::sqrt(simulation.inverse_inertia(sphere_[i]));
+        scale_[2 * i] = std::sqrt(simulation.sphere(sphere_[i]).inverse_inertial_mass());
+        scale_[2 * i + 1] = std::sqrt(simulation.sphere(sphere_[i]).inverse_inertia());
     }
 }
 
@@ -250,7 +250,7 @@ double FrequencyEstimator::estimate(const Simulation& simulation, int restarts, 
 
 namespace {
 
-/// Caught between two spheres of its own kind.
+/// Caged between two spheres of its own kind.
 std::vector<double> square_between_alike(const Simulation& simulation) {
     const ParticleStore& s = simulation.spheres();
     const double ratio = simulation.scene().stiffness_ratio;
@@ -258,7 +258,7 @@ std::vector<double> square_between_alike(const Simulation& simulation) {
     for (std::size_t i = 0; i < s.size(); ++i) {
         const double kn =
             kernels::contact_stiffness(s.radius[i], s.normal_stiffness[i], s.normal_stiffness[i]);
-        const double m = simulation.inverse_inertial_mass(i);
+        const double m = simulation.sphere(i).inverse_inertial_mass();
         // Two contacts on opposite sides, neighbours moving against it: 4 K_n/m. Rolling and
         // sliding of one contact, both bodies turning: 7 K_s/m.
         square[i] = std::max(4.0, 7.0 * ratio) * kn * m;
@@ -286,15 +286,15 @@ class StiffestTwo {
 
 }  // namespace
 
-std::vector<double> caught_square_frequencies(const Simulation& simulation) {
+std::vector<double> caged_square_frequencies(const Simulation& simulation) {
     const Scene& scene = simulation.scene();
     const ParticleStore& s = scene.spheres;
     StiffestTwo stiffest(s.size());
-    for (const auto& [i, j] : simulation.neighbours()) {
+    for (const auto& [i, j] : simulation.contacts().neighbours()) {
         const double kn = kernels::contact_stiffness(0.5 * (s.radius[i] + s.radius[j]),
                                                      s.normal_stiffness[i], s.normal_stiffness[j]);
-        const double value =
-            kn * (simulation.inverse_inertial_mass(i) + simulation.inverse_inertial_mass(j));
+        const double value = kn * (simulation.sphere(i).inverse_inertial_mass() +
+                                   simulation.sphere(j).inverse_inertial_mass());
         stiffest.add(static_cast<std::size_t>(i), value);
         stiffest.add(static_cast<std::size_t>(j), value);
     }
@@ -304,7 +304,7 @@ std::vector<double> caught_square_frequencies(const Simulation& simulation) {
             if (wall.normal.dot(s.position[i] - wall.point) > 3 * s.radius[i]) continue;
             const double kn = kernels::contact_stiffness(s.radius[i], s.normal_stiffness[i],
                                                          wall.normal_stiffness);
-            stiffest.add(i, kn * simulation.inverse_inertial_mass(i));
+            stiffest.add(i, kn * simulation.sphere(i).inverse_inertial_mass());
         }
     std::vector<double> square = square_between_alike(simulation);
     for (std::size_t i = 0; i < s.size(); ++i)
@@ -312,12 +312,12 @@ std::vector<double> caught_square_frequencies(const Simulation& simulation) {
     return square;
 }
 
-double caught_frequency(const Simulation& simulation, double known) {
+double caged_frequency(const Simulation& simulation, double known) {
     const auto largest = [](const std::vector<double>& square) {
         return square.empty() ? 0.0 : std::sqrt(*std::max_element(square.begin(), square.end()));
     };
     const double alike = largest(square_between_alike(simulation));
-    return alike <= known ? alike : largest(caught_square_frequencies(simulation));
+    return alike <= known ? alike : largest(caged_square_frequencies(simulation));
 }
 
 std::vector<double> local_square_frequencies(const Simulation& simulation) {
@@ -339,9 +339,9 @@ std::vector<double> local_square_frequencies(const Simulation& simulation) {
             const double translation = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>()
                                            .computeDirect(directions[i], Eigen::EigenvaluesOnly)
                                            .eigenvalues()[2] *
-                                       simulation.inverse_inertial_mass(i);
+                                       simulation.sphere(i).inverse_inertial_mass();
             const double rotation =
-                shear[i] * s.radius[i] * s.radius[i] * simulation.inverse_inertia(i);
+                shear[i] * s.radius[i] * s.radius[i] * simulation.sphere(i).inverse_inertia();
             local[i] = std::max(translation, rotation);
         }
     });

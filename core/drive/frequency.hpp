@@ -52,12 +52,13 @@ class FrequencyEstimator {
     std::size_t spheres_ = 0;
 };
 
-/// Frequency each sphere could reach when it is caught between two others, squared: two of its own
-/// kind, or its two stiffest neighbours where those allow less [rad2/s2].
-std::vector<double> caught_square_frequencies(const Simulation& simulation);
-/// The largest over the spheres, of those that two of their own kind bring beyond `known` [rad/s];
-/// of all if no sphere gets there. Defined before any contact exists [rad/s].
-double caught_frequency(const Simulation& simulation, double known);
+/// Frequency that each sphere could reach when it is caged, squared: between two spheres of its own
+/// kind, or between its two stiffest neighbours where those allow less [rad2/s2].
+std::vector<double> caged_square_frequencies(const Simulation& simulation);
+/// An upper bound for caged spheres, before any contact exists, too [rad/s]. If two of its own kind
+/// bring no sphere beyond `known` [rad/s], it is the largest frequency between two of its own kind.
+/// Else it is the largest of caged_square_frequencies(), which costs more.
+double caged_frequency(const Simulation& simulation, double known);
 
 /// Highest frequency of each sphere with all its neighbours held fixed, squared; a lower bound of
 /// its share in the network's modes [rad2/s2].

@@ -11,7 +11,7 @@ namespace grainfield::core {
 std::vector<Branch> force_branches(const Simulation& simulation) {
     const ParticleStore& s = simulation.spheres();
     std::vector<Branch> branches;
-    for (const TouchingContact& c : simulation.touching()) {
+    for (const TouchingContact& c : simulation.contacts().touching()) {
         const Vec3 x = s.position[c.i];
         if (c.j >= 0) {
             branches.push_back({x, s.position[c.j], -c.force});
@@ -37,7 +37,7 @@ Eigen::Matrix3d mean_stress(const Simulation& simulation, double volume) {
 }
 
 Fabric measure_fabric(const Simulation& simulation) {
-    const std::vector<TouchingContact> contacts = simulation.touching();
+    const std::vector<TouchingContact> contacts = simulation.contacts().touching();
     const ParticleStore& s = simulation.spheres();
     const std::size_t n = s.size();
     Fabric fabric;
@@ -81,7 +81,7 @@ Fabric measure_fabric(const Simulation& simulation) {
 double stiffness_sum(const Simulation& simulation, double volume) {
     const ParticleStore& s = simulation.spheres();
     double sum = 0;
-    for (const auto& [i, j, shear, force] : simulation.touching()) {
+    for (const auto& [i, j, shear, force] : simulation.contacts().touching()) {
         if (j < 0) continue;
         sum += kernels::contact_stiffness(0.5 * (s.radius[i] + s.radius[j]), s.normal_stiffness[i],
                                           s.normal_stiffness[j]) *

@@ -19,7 +19,7 @@ constexpr int full_iterations = 8, update_iterations = 5;  // a round
 
 /// Grows whenever there are other neighbours.
 std::int64_t searches(const Simulation& simulation) {
-    return simulation.neighbour_searches() + simulation.neighbour_renewals();
+    return simulation.stats().searches() + simulation.stats().partial_rebuilds();
 }
 
 }  // namespace
@@ -27,10 +27,10 @@ std::int64_t searches(const Simulation& simulation) {
 double StepControl::frequency(const Simulation& simulation, int rounds) {
     network_ = estimator_.estimate(simulation, rounds,
                                    rounds == full_rounds ? full_iterations : update_iterations);
-    const double caught = caught_frequency(simulation, network_);
-    caught_governs_ = caught > network_;
+    const double caged = caged_frequency(simulation, network_);
+    caged_governs_ = caged > network_;
     searches_ = searches(simulation);
-    return std::max(network_, caught);
+    return std::max(network_, caged);
 }
 
 double StepControl::next(Simulation& simulation) {
@@ -41,9 +41,9 @@ double StepControl::next(Simulation& simulation) {
         omega_ = frequency(simulation, first ? full_rounds : update_rounds);
         if (scaled && (first || omega_ > 1.05 * omega_target_)) scale_masses(simulation);
         next_estimate_ = simulation.steps() + estimate_interval(simulation.size());
-    } else if (caught_governs_ && searches_ != searches(simulation)) {
+    } else if (caged_governs_ && searches_ != searches(simulation)) {
         // Other neighbours than those that the bound was found for.
-        omega_ = std::max(network_, caught_frequency(simulation, network_));
+        omega_ = std::max(network_, caged_frequency(simulation, network_));
         searches_ = searches(simulation);
     } else {
         return step_;
@@ -56,17 +56,17 @@ double StepControl::next(Simulation& simulation) {
 void StepControl::scale_masses(Simulation& simulation) {
     const std::size_t n = simulation.size();
     std::vector<double> scale(n, 1.0);
-    simulation.set_inertia_scale(scale);
+    simulation.change().set_inertia_scale(scale);
     omega_target_ = frequency(simulation, full_rounds) / options_.mass_scaling;
     std::vector<double> local = local_square_frequencies(simulation);
-    const std::vector<double> caught = caught_square_frequencies(simulation);
-    for (std::size_t i = 0; i < n; ++i) local[i] = std::max(local[i], caught[i]);
+    const std::vector<double> caged = caged_square_frequencies(simulation);
+    for (std::size_t i = 0; i < n; ++i) local[i] = std::max(local[i], caged[i]);
     // A mode of the network is up to sqrt(2) faster than a sphere between fixed neighbours: find
     // the smallest margin that brings the scaled network under the target.
     for (double margin = 1.0; margin < 3.0; margin *= 1.1) {
         for (std::size_t i = 0; i < n; ++i)
             scale[i] = std::max(1.0, margin * local[i] / (omega_target_ * omega_target_));
-        simulation.set_inertia_scale(scale);
+        simulation.change().set_inertia_scale(scale);
         omega_ = frequency(simulation, full_rounds);
         if (omega_ <= omega_target_) break;
     }

@@ -36,7 +36,7 @@ class StepControl {
 
     template <class Archive>
     void serialize(Archive& archive) {
-        archive(estimator_, network_, caught_governs_, searches_, omega_, omega_target_,
+        archive(estimator_, network_, caged_governs_, searches_, omega_, omega_target_,
                 inertia_ratio_, step_, next_estimate_);
     }
 
@@ -46,11 +46,11 @@ class StepControl {
 
     TimeOptions options_;
     FrequencyEstimator estimator_;
-    double network_ = 0;           // highest frequency of the contacts there are [rad/s]
-    bool caught_governs_ = false;  // a sphere caught between its neighbours could be faster still
-    std::int64_t searches_ = 0;    // neighbour searches when that was found
-    double omega_ = 0;             // with the inertia in use [rad/s]
-    double omega_target_ = 0;      // mass scaling: what the scaled network may have [rad/s]
+    double network_ = 0;          // highest frequency of the contacts there are [rad/s]
+    bool caged_governs_ = false;  // a sphere caged between its neighbours could be faster still
+    std::int64_t searches_ = 0;   // neighbour searches when that was found
+    double omega_ = 0;            // with the inertia in use [rad/s]
+    double omega_target_ = 0;     // mass scaling: what the scaled network may have [rad/s]
     double inertia_ratio_ = 1;
     double step_ = 0;
     std::int64_t next_estimate_ = -1;

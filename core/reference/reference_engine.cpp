@@ -19,7 +19,7 @@ Inertias::Inertias(const World& world, std::size_t begin, std::size_t end) {
     }
 }
 
-void ReferenceEngine::push() {
+void ReferenceEngine::upload() {
     const std::size_t n = world_.size();
     world_.force.resize(n);
     world_.moment.resize(n);

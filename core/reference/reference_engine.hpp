@@ -20,14 +20,14 @@ class ReferenceEngine : public Engine {
   public:
     ReferenceEngine(World& world, const kernels::ReferenceKernels& kernels)
         : Engine(world), kernels_(kernels) {
-        push();
+        upload();
     }
 
     void compute_forces(bool sums) override;
     void move(double step) override;
-    void pull() override {}
-    void pull_resultants() override {}
-    void push() override;
+    void download() override {}
+    void download_resultants() override {}
+    void upload() override;
     void scale_velocities(double factor) override;
     void forget_walls() override { contacts_.forget_walls(); }
     void invalidate_lists() override;

@@ -43,17 +43,17 @@ kernels::AffineMotion box_motion(std::span<const Wall> walls, std::span<const Ve
 
 World::World(Scene scene_, SimulationOptions options_)
     : scene(std::move(scene_)), options(options_) {
-    if (size() > 0) {
-        const auto [smallest, largest] =
-            std::minmax_element(spheres().radius.begin(), spheres().radius.end());
-        largest_radius = *largest;
-        if (options.skin <= 0) options.skin = 0.08 * *smallest;
-    }
     refresh();
+    if (size() > 0 && options.skin <= 0) options.skin = 0.08 * smallest_radius;
 }
 
 void World::refresh() {
     const ParticleStore& s = spheres();
+    if (size() > 0) {
+        const auto [smallest, largest] = std::minmax_element(s.radius.begin(), s.radius.end());
+        smallest_radius = *smallest;
+        largest_radius = *largest;
+    }
     per_sphere = !all_equal(s.normal_stiffness) || !all_equal(s.friction_angle);
     has_friction =
         scene.stiffness_ratio > 0 && std::any_of(s.friction_angle.begin(), s.friction_angle.end(),

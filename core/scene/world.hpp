@@ -26,11 +26,11 @@ struct World {
     // What follows from the scene; refresh() keeps it.
     std::vector<kernels::PlaneWall> planes;  ///< as the contacts see the walls
     bool has_friction = false, has_wall_friction = false;
-    bool per_sphere = false;    ///< stiffness or friction differ from sphere to sphere
-    double largest_radius = 0;  ///< [m]
+    bool per_sphere = false;  ///< stiffness or friction differ from sphere to sphere
+    double smallest_radius = 0, largest_radius = 0;  ///< [m]
 
     // What the last force evaluation found.
-    Vec3Column force, moment;  ///< resultants, gravity included; where Engine::pull brings them
+    Vec3Column force, moment;  ///< resultants, gravity included: Engine::download_resultants()
     std::vector<kernels::WallLoad> wall_loads, last_wall_loads;
     kernels::ContactSums contact_sums;  ///< where sums were asked for
     // With the ledger [J].

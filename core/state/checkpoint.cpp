@@ -86,7 +86,7 @@ void Checkpoint::remove() {
         fs::remove(file, ignored);
 }
 
-Checkpoint::Part::Part(Checkpoint* checkpoint, std::string_view name, Save save, Load load)
+Checkpoint::Section::Section(Checkpoint* checkpoint, std::string_view name, Save save, Load load)
     : checkpoint_(checkpoint) {
     if (checkpoint_ == nullptr) return;
     if (checkpoint_->resuming()) {
@@ -106,7 +106,7 @@ Checkpoint::Part::Part(Checkpoint* checkpoint, std::string_view name, Save save,
     checkpoint_->levels_.push_back({std::string(name), std::move(save)});
 }
 
-Checkpoint::Part::~Part() {
+Checkpoint::Section::~Section() {
     if (checkpoint_ != nullptr) checkpoint_->levels_.pop_back();
 }
 

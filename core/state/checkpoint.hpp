@@ -2,9 +2,9 @@
 // Checkpoints: the whole state of a run, from which it goes on to the same bits.
 //
 // Work is nested: a command makes a packing, which settles a sample, in a loop. Each level that has
-// state of its own declares a Part of the checkpoint while it runs; a save writes all parts, outer
-// ones first. A run that resumes takes the same way again: every Part finds its state as it was,
-// and the level skips what is done.
+// state of its own declares a section of the checkpoint while it runs; a save writes all sections,
+// outer ones first. A run that resumes takes the same way again: every section finds its state as
+// it was, and the level skips what is done.
 
 #include <chrono>
 #include <cstdint>
@@ -51,13 +51,13 @@ class Checkpoint {
     Checkpoint(const Checkpoint&) = delete;
     Checkpoint& operator=(const Checkpoint&) = delete;
 
-    /// The parts declared from now on find the state of this checkpoint, as long as it has any.
+    /// The sections declared from now on find the state of this checkpoint, as long as it has any.
     void resume(FoundCheckpoint found);
     bool resuming() const { return source_ != nullptr; }
 
     /// True if the interval has passed since the last save. Cheap: to be called at every step.
     bool due();
-    /// Writes all parts beside `file`, flushes, keeps the file of before as file_before(), and
+    /// Writes all sections beside `file`, flushes, keeps the file of before as file_before(), and
     /// takes its place. FileError; the last good one is still there then.
     void save();
     /// Removes the files: the run has its results.
@@ -67,14 +67,14 @@ class Checkpoint {
     std::int64_t saves() const { return saves_; }  ///< so far [-]
 
     /// State of one level of the work, for as long as this lives.
-    class Part {
+    class Section {
       public:
         /// Takes part in `checkpoint` (nullptr: in none); calls load() at once if the run resumes.
-        /// Throws FileError if the checkpoint has another part here than `name`.
-        Part(Checkpoint* checkpoint, std::string_view name, Save save, Load load);
-        ~Part();
-        Part(const Part&) = delete;
-        Part& operator=(const Part&) = delete;
+        /// Throws FileError if the checkpoint has another section here than `name`.
+        Section(Checkpoint* checkpoint, std::string_view name, Save save, Load load);
+        ~Section();
+        Section(const Section&) = delete;
+        Section& operator=(const Section&) = delete;
 
         bool resumed() const { return resumed_; }  ///< state was loaded
 

@@ -15,7 +15,7 @@ namespace {
 
 std::string kind(const kernels::KernelTable& table) {
     return fmt::format("{}kernels for solver.isa = \"{}\", solver.precision = \"{}\"",
-                       table.reference != nullptr ? "the reference " : "", table.isa,
+                       table.reference != nullptr ? "the reference " : "", kernels::name(table.isa),
                        table.precision);
 }
 
@@ -39,9 +39,6 @@ void Simulation::load(StateReader& archive) {
     const std::vector<kernels::PlaneWall> planes = world_->planes;
     world_->refresh();
     world_->planes = planes;
-    if (world_->size() > 0)
-        world_->largest_radius =
-            *std::max_element(world_->spheres().radius.begin(), world_->spheres().radius.end());
     engine_ = make_engine(*world_, *kernels_);
     engine_->load(archive);
     store_current_ = true;

@@ -34,7 +34,7 @@ std::string Simulation::state_hash() const {
     hasher.add(spheres().velocity);
     hasher.add(spheres().spin);
     // The bodies identify a contact, not its place in a list: that depends on the skin.
-    for (const TouchingContact& c : touching()) {
+    for (const TouchingContact& c : contacts().touching()) {
         const std::int32_t ids[2] = {c.i, c.j};
         hasher.add(ids, sizeof ids);
         hasher.add(c.shear);

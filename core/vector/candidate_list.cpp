@@ -16,7 +16,7 @@ void Proposals::resize(std::size_t n, std::int32_t idle) {
     count = n;
     const std::size_t size = kernels::padded(n);
     resize_list(b, size);
-    resize_list(stretch, size);
+    resize_list(bin, size);
     for (std::size_t k = n; k < size; ++k) b[k] = idle;
 }
 
@@ -31,11 +31,11 @@ KeptContact<T> CandidateList<T>::kept_contact(std::size_t k, std::size_t proposa
 template <class T>
 void CandidateList<T>::keep(const Proposals& proposals, std::vector<KeptContact<T>>& kept) const {
     kept.reserve(kept.size() + begin[1]);  // others seldom touch
-    // Candidates of a stretch stand in the order of their proposals.
-    std::array<std::size_t, kernels::stretches + 1> next = begin;
+    // Candidates of a bin stand in the order of their proposals.
+    std::array<std::size_t, kernels::distance_bins + 1> next = begin;
     for (std::size_t p = 0; p < proposals.count; ++p) {
-        const std::size_t s = proposals.stretch[p], k = next[s]++;
-        if (s < kernels::stretches && touches(k)) kept.push_back(kept_contact(k, p));
+        const std::size_t s = proposals.bin[p], k = next[s]++;
+        if (s < kernels::distance_bins && touches(k)) kept.push_back(kept_contact(k, p));
     }
 }
 
@@ -54,11 +54,11 @@ void CandidateList<T>::build(std::span<const std::int32_t> firsts, Proposals& pr
                              std::span<const KeptContact<T>> kept) {
     using kernels::history_size, kernels::in_block, kernels::separation_size;
     for (const KeptContact<T>& contact : kept)
-        proposals.stretch[static_cast<std::size_t>(contact.proposal)] = 0;
-    // Counting sort by stretch; no branches, which nobody could foresee. Those that are no
-    // candidates come last and are dropped: they have room to be written to.
-    std::array<std::size_t, kernels::stretches + 2> first{};
-    for (std::size_t p = 0; p < proposals.count; ++p) ++first[proposals.stretch[p] + 1u];
+        proposals.bin[static_cast<std::size_t>(contact.proposal)] = 0;
+    // Counting sort by bin, without branches: they would be mispredicted. Pairs that are no
+    // candidates are written to the first place behind the list, which padding overwrites.
+    std::array<std::size_t, kernels::distance_bins + 2> first{};
+    for (std::size_t p = 0; p < proposals.count; ++p) ++first[proposals.bin[p] + 1u];
     std::partial_sum(first.begin(), first.end(), first.begin());
     std::copy_n(first.begin(), begin.size(), begin.begin());
     // The last entry is always padding.
@@ -70,8 +70,8 @@ void CandidateList<T>::build(std::span<const std::int32_t> firsts, Proposals& pr
     touching.assign(size / kernels::most_lanes, 0);
     auto contact = kept.begin();
     for (std::size_t p = 0; p < proposals.count; ++p) {
-        const std::size_t stretch = proposals.stretch[p];
-        const std::size_t k = std::min(first[stretch]++, count());
+        const std::size_t bin = proposals.bin[p];
+        const std::size_t k = std::min(first[bin]++, count());
         a[k] = firsts[p] * kernels::record_stride<T>;
         b[k] = proposals.b[p] * kernels::record_stride<T>;
         for (std::size_t c = 0; c < separation_size; ++c)
@@ -93,7 +93,7 @@ template <class T>
 kernels::Candidates<T> CandidateList<T>::view(double used, Aligned<std::int32_t>& scratch) {
     if (scratch.size() < a.size() + kernels::most_lanes)
         scratch.resize(a.size() + kernels::most_lanes);
-    const std::size_t size = kernels::padded(begin[stretch_of(used) + 1u]);
+    const std::size_t size = kernels::padded(begin[bin_of(used) + 1u]);
     return {.size = size,
             .close = std::min(size, kernels::padded(begin[1])),
             .idle = a.size() - 1,

@@ -11,20 +11,21 @@
 
 namespace grainfield::core {
 
-/// Stretch (kernels::stretches) of a candidate that touches once the share `used` of its reserves
-/// is used up [-].
-inline std::uint8_t stretch_of(double used) {
-    if (used < kernels::first_stretch) return 0;
-    constexpr auto last = static_cast<double>(kernels::stretches - 1);
+/// Distance bin (kernels::distance_bins) of a candidate that touches once the share `used` of its
+/// buffers is used up [-].
+inline std::uint8_t bin_of(double used) {
+    if (used < kernels::first_bin) return 0;
+    constexpr auto last = static_cast<double>(kernels::distance_bins - 1);
     return static_cast<std::uint8_t>(std::min(1 + used * last, last));
 }
 
-/// Pairs that a candidate list is chosen from, in an order that lasts from one build to the next.
-/// Their first records stand elsewhere: pairs that follow each other mostly share them.
+/// Pairs that a candidate list is chosen from. Their order stays the same from one build to the
+/// next. Only second records stand here: pairs are grouped by their first record, which the caller
+/// knows.
 struct Proposals {
-    Aligned<std::int32_t> b;        ///< second records
-    Aligned<std::uint8_t> stretch;  ///< kernels::stretches if it is no candidate
-    std::size_t count = 0;          ///< without padding
+    Aligned<std::int32_t> b;    ///< second records
+    Aligned<std::uint8_t> bin;  ///< kernels::distance_bins if it is no candidate
+    std::size_t count = 0;      ///< without padding
 
     /// Makes room for `n` pairs, in no particular state, and padding: the record `idle`.
     void resize(std::size_t n, std::int32_t idle);
@@ -42,7 +43,7 @@ struct CandidateList {
     Aligned<std::int32_t> a, b;      ///< records, times kernels::record_stride
     Aligned<T> separation, history;  ///< in blocks
     Aligned<std::uint16_t> touching;
-    std::array<std::size_t, kernels::stretches + 1> begin{};  ///< of each stretch, and the end
+    std::array<std::size_t, kernels::distance_bins + 1> begin{};  ///< of each bin, and the end
 
     std::size_t count() const { return begin.back(); }  ///< without padding
     bool touches(std::size_t k) const {
@@ -67,18 +68,18 @@ struct CandidateList {
     }
 
     /// Appends the contacts that touch, ascending by proposal; the list was made from `proposals`,
-    /// whose stretches are still those of that time.
+    /// whose bins are still those of that time.
     void keep(const Proposals& proposals, std::vector<KeptContact<T>>& kept) const;
     /// The same where a proposal's place is the number of its first record.
     void keep_by_record(std::vector<KeptContact<T>>& kept) const;
-    /// Replaces the list by those proposals that are candidates; `firsts` are their first records,
-    /// `separation` of each is in blocks. Those in `kept` have their history there and are of the
-    /// first stretch, however far apart they are by now: a spring that is gone has to be accounted
-    /// for. Padding gets the record `idle`.
+    /// Replaces the list by those proposals that are candidates. `firsts` are the first records of
+    /// the proposals, `separation` is theirs in blocks. Contacts in `kept` get their history and go
+    /// into bin 0, even if they have come apart: the next step has to book the energy of their
+    /// springs. Padding gets the record `idle`.
     void build(std::span<const std::int32_t> firsts, Proposals& proposals,
                const Aligned<T>& separation, std::int32_t idle,
                std::span<const KeptContact<T>> kept);
-    /// The candidates that can touch while no more than `used` of any reserve is used up.
+    /// The candidates that can touch while no more than `used` of any buffer is used up.
     kernels::Candidates<T> view(double used, Aligned<std::int32_t>& scratch);
 
   private:

@@ -1,29 +1,21 @@
 #pragma once
-// A domain: a compact part of the sample that one thread works on at a time, with the working
-// copies of its spheres, copies of the neighbours outside ("ghosts"), and its own lists. Contacts
-// across a border are computed in both domains, from the same numbers to the same bits; each
-// domain adds up the forces on its own spheres alone. So nothing depends on the threads.
+// The domain decomposition. A domain is a compact part of the sample that one thread works on at a
+// time: working copies of its spheres, and copies of the neighbours outside ("ghosts"). A contact
+// across a border is computed in both domains, from the same numbers to the same bits; each domain
+// adds up the forces on its own spheres alone. So nothing depends on the threads.
 
 #include <algorithm>
-#include <array>
 #include <span>
 #include <vector>
 
 #include "core/scene/world.hpp"
-#include "core/vector/candidate_list.hpp"
+#include "core/vector/spatial_order.hpp"
 #include "kernels/vector/vector_kernels.hpp"
 
 namespace grainfield::core {
 
-/// Candidates of one wall.
-template <class T>
-struct WallList {
-    std::int32_t wall = 0;
-    CandidateList<T> list;
-};
-
 /// Columns of Domain::bodies; the mass only where there is gravity.
-enum BodyColumn : std::size_t { inverse_mass, spin_response, inverse_reserve, mass };
+enum BodyColumn : std::size_t { inverse_mass, spin_response, inverse_buffer, mass };
 inline constexpr std::size_t weightless_columns = 3, body_columns = 4;
 
 template <class T>
@@ -33,29 +25,15 @@ struct Domain {
 
     // Records: own spheres, padding, ghosts, and one that is idle.
     Aligned<kernels::SphereRecord<T>> records;
-    Aligned<T> bodies;                                         ///< of own spheres: columns()
-    std::vector<std::int32_t> ghost_slots;                     ///< ascending
-    std::vector<const kernels::SphereRecord<T>*> ghost_homes;  ///< where ghosts are copied from
+    Aligned<T> bodies;                                           ///< of own spheres: columns()
+    std::vector<std::int32_t> ghost_slots;                       ///< ascending
+    std::vector<const kernels::SphereRecord<T>*> ghost_sources;  ///< where ghosts are copied from
 
-    /// All that can become candidates before the next search, ascending by slots: row after row
-    /// of the pairs that have one first record. Rows belong to the ghosts whose slots are below
-    /// those of the domain, then to its own spheres.
-    Proposals neighbours;
-    Aligned<std::int32_t> row_end;  ///< of each row, among the neighbours
-    CandidateList<T> pairs;
-    std::vector<WallList<T>> walls;
-
-    // Results of the last pass.
+    // Results of the last step.
     kernels::PassResult pass;
     std::vector<kernels::WallLoad> wall_loads;  ///< one a wall of the scene
     double resultant_sum = 0;                   ///< of |resultant| of its own spheres [N]
     kernels::MoveResult motion;
-    Box centres;                   ///< of its own spheres when the lists were built [m]
-    double largest_reach = 0;      ///< of its own spheres: radius and reserve [m]
-    double reach_per_reserve = 0;  ///< the largest (radius + reserve)/reserve [-]
-    /// Contacts on their way to the next lists, where `neighbours` are newer than `pairs`.
-    std::vector<KeptContact<T>> kept;
-    bool neighbours_are_new = false;
 
     std::size_t ghost_begin() const { return kernels::padded(own); }
     /// Column of `bodies`.
@@ -66,7 +44,7 @@ struct Domain {
                 body(inverse_mass),
                 body(spin_response),
                 body(mass),
-                body(inverse_reserve),
+                body(inverse_buffer),
                 built.x.data() + first,
                 built.y.data() + first,
                 built.z.data() + first};
@@ -76,6 +54,7 @@ struct Domain {
         const auto s = static_cast<std::size_t>(slot);
         return s >= first && s < first + own;
     }
+    bool owns_record(std::int32_t record) const { return static_cast<std::size_t>(record) < own; }
     /// Whether a slot has a record here: it is own or a ghost.
     bool knows(std::int32_t slot) const {
         return owns(slot) || std::binary_search(ghost_slots.begin(), ghost_slots.end(), slot);
@@ -86,28 +65,46 @@ struct Domain {
         return r < own ? static_cast<std::int32_t>(first + r) : ghost_slots[r - ghost_begin()];
     }
     /// Record of a slot that the domain knows.
-    std::int32_t record(std::int32_t slot) const;
-    /// First record of the pairs of a row.
-    std::int32_t row_record(std::size_t row) const {
-        const std::size_t low = row_end.size() - own;
-        return static_cast<std::int32_t>(row < low ? ghost_begin() + row : row - low);
-    }
-    /// Calls use(a, b) with the records of all neighbours.
-    template <class Use>
-    void for_neighbours(const Use& use) const {
-        std::size_t p = 0;
-        for (std::size_t row = 0; row < row_end.size(); ++row)
-            for (; p < static_cast<std::size_t>(row_end[row]); ++p)
-                use(row_record(row), neighbours.b[p]);
+    std::int32_t record(std::int32_t slot) const {
+        if (owns(slot)) return slot - static_cast<std::int32_t>(first);
+        const auto at = std::lower_bound(ghost_slots.begin(), ghost_slots.end(), slot);
+        return static_cast<std::int32_t>(ghost_begin()) +
+               static_cast<std::int32_t>(at - ghost_slots.begin());
     }
 };
 
-/// What the lists of a domain are built from; all indexed by slot.
-struct BuiltState {
-    Vec3Column position;      ///< centres [m]
-    Column<float> reserve;    ///< what a sphere may move beyond the box's strain [m]
-    double wall_reserve = 0;  ///< what a wall may deviate from the box's strain [m]
+/// All domains of a sample.
+template <class T>
+struct Decomposition {
+    SpatialOrder order;
+    std::vector<Domain<T>> domains;
+
+    std::size_t size() const { return domains.size(); }
+    Domain<T>& domain_of(std::int32_t slot) { return domains[order.domain_of(slot)]; }
+    const Domain<T>& domain_of(std::int32_t slot) const { return domains[order.domain_of(slot)]; }
+    /// Sphere of the k-th own record of a domain.
+    std::size_t sphere(const Domain<T>& domain, std::size_t k) const {
+        return static_cast<std::size_t>(order.sphere[domain.first + k]);
+    }
+    const kernels::SphereRecord<T>& record(std::size_t slot) const {
+        const Domain<T>& domain = domain_of(static_cast<std::int32_t>(slot));
+        return domain.records[slot - domain.first];
+    }
 };
+
+/// Cuts the spheres of a world into domains; records are left to fill.
+template <class T>
+Decomposition<T> decompose(const World& world);
+
+/// Components of T as a vector in double, and back.
+template <class T>
+Vec3 vec3(const T (&v)[3]) {
+    return {double{v[0]}, double{v[1]}, double{v[2]}};
+}
+template <class T>
+void assign3(T (&to)[3], const Vec3& from) {
+    for (int a = 0; a < 3; ++a) to[a] = static_cast<T>(from[a]);
+}
 
 /// Radii by slot [m], which the scene keeps by sphere.
 struct SlotRadii {
@@ -117,38 +114,5 @@ struct SlotRadii {
         return radius[static_cast<std::size_t>(sphere[slot])];
     }
 };
-
-/// Memory of a thread to build lists in.
-template <class T>
-struct ListScratch {
-    Proposals near_wall;
-    Aligned<std::int32_t> firsts;         ///< of proposals
-    Aligned<kernels::BuiltPlace> places;  ///< of a domain, as its records
-    Aligned<T> separation;                ///< of proposals, in blocks
-    std::vector<KeptContact<T>> kept;
-};
-
-/// Gives the domain new neighbours: `pairs` as slots, ascending by (i, j), i < j, at least one of
-/// the two its own. Contacts that touch keep their history. Ghosts' records are left to copy, and
-/// the lists have to be built.
-template <class T>
-void set_neighbours(Domain<T>& domain, std::span<const kernels::Pair> pairs);
-
-/// Replaces the pairs of the spheres `slots` (ascending) by those of `pairs`, which are theirs in
-/// all domains, in the order of set_neighbours(). A domain that has nothing to do with these
-/// spheres stays as it is.
-template <class T>
-void exchange_neighbours(Domain<T>& domain, std::span<const std::int32_t> slots,
-                         std::span<const kernels::Pair> pairs);
-
-/// Chooses the candidates among the neighbours; contacts that touch keep their history.
-template <class T>
-void build_pair_list(Domain<T>& domain, const BuiltState& state, const SlotRadii& radii,
-                     const kernels::VectorKernels<T>& kernels, ListScratch<T>& scratch);
-
-/// Chooses the candidates of every wall; contacts that touch keep their history.
-template <class T>
-void build_wall_lists(Domain<T>& domain, const BuiltState& state, const SlotRadii& radii,
-                      std::span<const Wall> walls, ListScratch<T>& scratch);
 
 }  // namespace grainfield::core

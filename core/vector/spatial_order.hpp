@@ -1,6 +1,7 @@
 #pragma once
 // An order of the spheres in which neighbours in space are neighbours in memory, cut into domains.
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -11,6 +12,13 @@ namespace grainfield::core {
 struct SpatialOrder {
     std::vector<std::int32_t> sphere;  ///< sphere of each slot
     std::vector<std::size_t> first;    ///< first slot of each domain, and one past the last slot
+
+    /// Domain of a slot.
+    std::size_t domain_of(std::int32_t slot) const {
+        const auto after =
+            std::upper_bound(first.begin(), first.end(), static_cast<std::size_t>(slot));
+        return static_cast<std::size_t>(after - first.begin()) - 1;
+    }
 };
 
 /// Bisects the spheres along the longest side of their box, again and again (a k-d tree): first

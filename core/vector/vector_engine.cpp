@@ -1,156 +1,18 @@
 #include "core/vector/vector_engine.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace grainfield::core {
 namespace {
 
-/// Most spheres of a domain: with their contacts they fill most of a 1 MB cache. A small sample has
-/// four domains or more, so that threads share the work, but none so small that most is border.
-std::size_t domain_size(std::size_t spheres) {
-    return std::clamp<std::size_t>(spheres / 4, 1000, 5000);
-}
-
+/// Brings into this core's cache what stages 2 to 4 read out of order; what they read in order the
+/// hardware fetches by itself. It loads, because a prefetch is dropped where the TLB does not hold
+/// the page.
 template <class T>
-void assign3(T (&to)[3], const Vec3& from) {
-    for (int a = 0; a < 3; ++a) to[a] = static_cast<T>(from[a]);
-}
-template <class T>
-Vec3 vec3(const T (&v)[3]) {
-    return {double{v[0]}, double{v[1]}, double{v[2]}};
-}
-
-}  // namespace
-
-template <class T>
-VectorEngine<T>::VectorEngine(World& world, const kernels::VectorKernels<T>& kernels)
-    : Engine(world), kernels_(kernels) {
-    const ParticleStore& s = world.spheres();
-    const std::size_t n = s.size();
-    order_ = order_in_space(s.position, domain_size(n));
-    built_.position.resize(n);
-    built_.reserve.resize(n);
-    for (std::size_t slot = 0; slot < n; ++slot)
-        built_.position.set(slot, s.position[static_cast<std::size_t>(order_.sphere[slot])]);
-    if (n > 0) smallest_radius_ = *std::min_element(s.radius.begin(), s.radius.end());
-    domains_.resize(order_.first.size() - 1);
-    for (std::size_t d = 0; d < domains_.size(); ++d) {
-        Domain<T>& domain = domains_[d];
-        domain.first = order_.first[d];
-        domain.own = order_.first[d + 1] - order_.first[d];
-        domain.records.resize(domain.ghost_begin() + 1);
-        domain.bodies.resize(weightless_columns * domain.ghost_begin());
-    }
-    push();
-}
-
-template <class T>
-void VectorEngine<T>::push() {
-    const ParticleStore& s = world_.spheres();
-    for (Domain<T>& domain : domains_)
-        for (std::size_t k = 0; k < domain.own; ++k) {
-            const auto i = static_cast<std::size_t>(order_.sphere[domain.first + k]);
-            kernels::SphereRecord<T>& r = domain.records[k];
-            r.radius = static_cast<T>(s.radius[i]);
-            assign3(r.v, s.velocity[i]);
-            r.compliance = static_cast<T>(1 / s.normal_stiffness[i]);
-            assign3(r.w, s.spin[i]);
-            r.friction = static_cast<T>(world_.friction(i));
-            for (int a = 0; a < 3; ++a) r.radius_spin[a] = r.radius * r.w[a];
-            domain.body(inverse_mass)[k] = static_cast<T>(world_.inverse_inertial_mass(i));
-            domain.body(spin_response)[k] = static_cast<T>(s.radius[i] * world_.inverse_inertia(i));
-        }
-    if (weighed_) weigh();
-    ghosts_outdated_ = true;
-    if (!world_.has_friction)
-        for (Domain<T>& domain : domains_) {
-            std::fill(domain.pairs.history.begin(), domain.pairs.history.end(), T(0));
-            for (WallList<T>& wall : domain.walls)
-                std::fill(wall.list.history.begin(), wall.list.history.end(), T(0));
-        }
-    suspicious_ = true;  // what was pushed has not been looked at
-}
-
-/// Gives the bodies their masses.
-template <class T>
-void VectorEngine<T>::weigh() {
-    for (Domain<T>& domain : domains_) {
-        domain.bodies.resize(body_columns * domain.ghost_begin());
-        for (std::size_t k = 0; k < domain.own; ++k)
-            domain.body(mass)[k] = static_cast<T>(mass_of(domain, k));
-    }
-    weighed_ = true;
-}
-
-template <class T>
-void VectorEngine<T>::scale_velocities(double factor) {
-    const auto f = static_cast<T>(factor);
-#pragma omp parallel for schedule(static) if (domains_.size() > 1)
-    for (std::size_t d = 0; d < domains_.size(); ++d)
-        for (std::size_t k = 0; k < domains_[d].own; ++k)
-            for (int a = 0; a < 3; ++a) {
-                domains_[d].records[k].v[a] *= f;
-                domains_[d].records[k].w[a] *= f;
-                domains_[d].records[k].radius_spin[a] *= f;
-            }
-}
-
-template <class T>
-void VectorEngine<T>::pull() {
-    ParticleStore& s = world_.scene.spheres;
-#pragma omp parallel for schedule(static) if (domains_.size() > 1)
-    for (std::size_t d = 0; d < domains_.size(); ++d) {
-        const Domain<T>& domain = domains_[d];
-        for (std::size_t k = 0; k < domain.own; ++k) {
-            const std::size_t slot = domain.first + k;
-            const auto i = static_cast<std::size_t>(order_.sphere[slot]);
-            const kernels::SphereRecord<T>& r = domain.records[k];
-            s.position.set(i, built_.position[slot] + vec3(r.u));
-            s.velocity.set(i, vec3(r.v));
-            s.spin.set(i, vec3(r.w));
-        }
-    }
-}
-
-template <class T>
-void VectorEngine<T>::pull_resultants() {
-    world_.force.resize(world_.size());
-    world_.moment.resize(world_.size());
-    run({.again = true, .sums = false, .use = Pass::columns, .step = 0});
-}
-
-template <class T>
-double VectorEngine<T>::resultant_sum() {
-    double sum = 0;
-    for (const Domain<T>& domain : domains_) sum += domain.resultant_sum;
-    return sum;
-}
-
-// --- the step ------------------------------------------------------------------------------------
-
-template <class T>
-void VectorEngine<T>::compute_forces(bool sums) {
-    if (stale_ || !(used_reserves() < 1)) rebuild();
-    run({.again = false, .sums = sums, .use = Pass::sum, .step = 0});
-}
-
-template <class T>
-void VectorEngine<T>::move(double step) {
-    run({.again = true, .sums = false, .use = Pass::motion, .step = step});
-}
-
-template <class T>
-void VectorEngine<T>::compute_and_move(double step) {
-    if (stale_ || !(used_reserves() < 1)) rebuild();
-    run({.again = false, .sums = world_.options.ledger, .use = Pass::motion, .step = step});
-}
-
-/// Reads what a domain needs out of order, so that it is in this core's cache; columns read in
-/// order come by themselves. Loads, because prefetches are dropped where a page's address is not at
-/// hand.
-template <class T>
-void touch(const Domain<T>& domain) {
+void touch(const Domain<T>& domain, const CandidateList<T>& pairs) {
     const auto read = [](const auto& column) {
         const auto* begin = reinterpret_cast<const char*>(column.data());
         const std::size_t bytes = column.size() * sizeof(column[0]);
@@ -158,156 +20,163 @@ void touch(const Domain<T>& domain) {
             static_cast<void>(*static_cast<const volatile char*>(begin + at));
     };
     read(domain.records);
-    read(std::span(domain.pairs.history.data(), kernels::history_size * domain.pairs.begin[1]));
+    read(std::span(pairs.history.data(), kernels::history_size * pairs.begin[1]));
+}
+
+}  // namespace
+
+template <class T>
+VectorEngine<T>::VectorEngine(World& world, const kernels::VectorKernels<T>& kernels)
+    : Engine(world),
+      kernels_(kernels),
+      sample_(decompose<T>(world)),
+      lists_(world, sample_, kernels),
+      contacts_(world, sample_, lists_) {
+    upload();
+}
+
+// --- the step ------------------------------------------------------------------------------------
+
+template <class T>
+void VectorEngine<T>::compute_forces(bool sums) {
+    begin_evaluation();
+    for_domains(true, [&](const Task& task) {
+        compute_loads(task, sums);
+        for_resultants(task, [](std::size_t, const Vec3&) {});
+    });
+    reduce_forces();
 }
 
 template <class T>
-void VectorEngine<T>::run(const Pass& pass) {
-    if (!pass.again) {
-        // Once a stretch of candidates is in play it stays so until the next build: contacts in it
-        // carry history.
-        most_used_ = std::max(most_used_, used_reserves());
-        planes_.clear();
-        for (std::size_t w = 0; w < world_.planes.size(); ++w) planes_.push_back(wall_plane(w));
-    }
-    if (pass.use == Pass::motion) affine_ = affine_motion(pass.step);
-    if (world_.motion_features().gravity && !weighed_) weigh();
-    const kernels::MoveParameters<T> motion = move_parameters(pass.step);
-    make_scratch();
-#pragma omp parallel if (domains_.size() > 1)
+void VectorEngine<T>::compute_and_move(double step) {
+    begin_evaluation();
+    const kernels::MoveParameters<T> motion = begin_motion(step);
+    for_domains(true, [&](const Task& task) {
+        compute_loads(task, world_.options.ledger);
+        integrate(task, motion);
+    });
+    reduce_forces();
+    reduce_motion();
+}
+
+template <class T>
+void VectorEngine<T>::move(double step) {
+    const kernels::MoveParameters<T> motion = begin_motion(step);
+    for_domains(false, [&](const Task& task) {
+        replay_loads(task);
+        integrate(task, motion);
+    });
+    reduce_motion();
+}
+
+template <class T>
+template <class Work>
+void VectorEngine<T>::for_domains(bool ghosts_moved, const Work& work) {
+    const std::size_t domains = sample_.size();
+    if (world_.motion_features().gravity && !has_masses_) upload_masses();
+    scratch_.resize(static_cast<std::size_t>(omp_get_max_threads()));
+#pragma omp parallel if (domains > 1)
     {
-        if (!pass.again || ghosts_outdated_) {
+        if (ghosts_moved || ghosts_outdated_) {
 #pragma omp for schedule(static)
-            for (std::size_t d = 0; d < domains_.size(); ++d) copy_ghosts(domains_[d]);
+            for (std::size_t d = 0; d < domains; ++d) copy_ghosts(sample_.domains[d]);
         }
         Scratch<T>& scratch = scratch_[static_cast<std::size_t>(omp_get_thread_num())];
         const auto team = static_cast<std::size_t>(omp_get_num_threads());
-        std::size_t coming = domains_.size();  // whose records are on their way into the cache
+        std::size_t coming = domains;  // whose records are on their way into the cache
 #pragma omp for schedule(dynamic, 1)
-        for (std::size_t d = 0; d < domains_.size(); ++d) {
-            Domain<T>& domain = domains_[d];
-            if (d != coming) touch(domain);
+        for (std::size_t d = 0; d < domains; ++d) {
+            Domain<T>& domain = sample_.domains[d];
+            if (d != coming) touch(domain, lists_.of(d).inner);
             coming = d + team;  // threads mostly take turns
-            find_forces(domain, coming < domains_.size() ? &domains_[coming] : nullptr, pass,
-                        scratch);
-            use_loads(domain, scratch.loads, pass, motion);
+            work(Task{d, domain, coming < domains ? &sample_.domains[coming] : nullptr, scratch});
         }
     }
     ghosts_outdated_ = false;
-    collect(pass);
 }
 
+// --- stages 0 and 1: lists and ghosts ------------------------------------------------------------
+
 template <class T>
-void VectorEngine<T>::use_loads(Domain<T>& domain, const Aligned<kernels::SphereLoad<T>>& loads,
-                                const Pass& pass, const kernels::MoveParameters<T>& motion) {
-    if (pass.use == Pass::motion) {
-        const auto move = kernels_.move[kernels::variant(world_.motion_features())];
-        domain.motion = move(domain.records.data(), loads.data(), domain.columns(built_.position),
-                             motion, domain.ghost_begin());
-        return;
-    }
-    domain.resultant_sum = 0;
-    for (std::size_t k = 0; k < domain.own; ++k) {
-        const Vec3 force = vec3(loads[k].force) + mass_of(domain, k) * world_.scene.gravity;
-        domain.resultant_sum += force.norm();
-        if (pass.use != Pass::columns) continue;
-        const auto i = static_cast<std::size_t>(order_.sphere[domain.first + k]);
-        world_.force.set(i, force);
-        world_.moment.set(i, world_.spheres().radius[i] * vec3(loads[k].moment_per_radius));
-    }
+void VectorEngine<T>::begin_evaluation() {
+    if (lists_.outdated()) lists_.rebuild();
+    lists_.bring_into_play();
+    planes_.clear();
+    for (std::size_t w = 0; w < world_.planes.size(); ++w) planes_.push_back(wall_plane(w));
 }
 
 template <class T>
 void VectorEngine<T>::copy_ghosts(Domain<T>& domain) {
     kernels::SphereRecord<T>* ghost = domain.records.data() + domain.ghost_begin();
-    const auto& homes = domain.ghost_homes;
+    const auto& sources = domain.ghost_sources;
     constexpr std::size_t ahead = 16;  // they lie anywhere: memory is asked for several at a time
-    for (std::size_t g = 0; g < homes.size(); ++g) {
-        if (g + ahead < homes.size()) {
-            __builtin_prefetch(homes[g + ahead]);
+    for (std::size_t g = 0; g < sources.size(); ++g) {
+        if (g + ahead < sources.size()) {
+            __builtin_prefetch(sources[g + ahead]);
             __builtin_prefetch(ghost + g + ahead, 1);
         }
-        ghost[g] = *homes[g];
+        ghost[g] = *sources[g];
     }
 }
 
-/// Loads of a domain's spheres into scratch.loads. `coming` is read next.
+// --- stages 2 and 3: forces ----------------------------------------------------------------------
+
 template <class T>
-void VectorEngine<T>::find_forces(Domain<T>& domain, const Domain<T>* coming, const Pass& pass,
-                                  Scratch<T>& scratch) {
-    scratch.loads.assign(domain.records.size(), {});
-    kernels::PairParameters<T> parameters = pair_parameters();
-    parameters.counted = static_cast<std::int32_t>(domain.own) * kernels::record_stride<T>;
-    const auto variant = [&](bool friction) {
-        const kernels::ContactFeatures features{friction, world_.per_sphere, pass.sums};
-        return pass.again ? kernels::variant_again(features) : kernels::variant(features);
-    };
-    kernels::Candidates<T> candidates = domain.pairs.view(most_used_, scratch.touching);
-    if (coming != nullptr) {
-        candidates.coming = reinterpret_cast<const char*>(coming->records.data());
-        candidates.coming_bytes = coming->records.size() * sizeof(kernels::SphereRecord<T>);
+void VectorEngine<T>::compute_loads(const Task& task, bool sums) {
+    kernels::PassResult result =
+        pair_forces(task, kernels_.pairs.compute({world_.has_friction, world_.per_sphere, sums}));
+    wall_forces(task, kernels_.walls.compute({world_.has_wall_friction, world_.per_sphere, sums}),
+                task.domain.wall_loads, result);
+    task.domain.pass = result;
+}
+
+template <class T>
+void VectorEngine<T>::replay_loads(const Task& task) {
+    kernels::PassResult known =
+        pair_forces(task, kernels_.pairs.replay({world_.has_friction, world_.per_sphere, false}));
+    wall_forces(task, kernels_.walls.replay({world_.has_wall_friction, world_.per_sphere, false}),
+                task.scratch.replayed_wall_loads, known);
+}
+
+template <class T>
+kernels::PassResult VectorEngine<T>::pair_forces(const Task& task,
+                                                 kernels::VectorPairKernel<T> kernel) {
+    Scratch<T>& scratch = task.scratch;
+    scratch.loads.assign(task.domain.records.size(), {});
+    kernels::Candidates<T> pairs = lists_.in_play(lists_.of(task.d).inner, scratch.touching);
+    if (task.coming != nullptr) {
+        pairs.coming = reinterpret_cast<const char*>(task.coming->records.data());
+        pairs.coming_bytes = task.coming->records.size() * sizeof(kernels::SphereRecord<T>);
     }
-    kernels::PassResult result = kernels_.pairs[variant(world_.has_friction)](
-        domain.records.data(), candidates, scratch.loads.data(), parameters);
-    std::vector<kernels::WallLoad>& wall_loads =
-        pass.again ? scratch.known_wall_loads : domain.wall_loads;
+    return kernel(task.domain.records.data(), pairs, scratch.loads.data(),
+                  pair_parameters(task.domain));
+}
+
+template <class T>
+void VectorEngine<T>::wall_forces(const Task& task, kernels::VectorWallKernel<T> kernel,
+                                  std::vector<kernels::WallLoad>& wall_loads,
+                                  kernels::PassResult& result) {
     wall_loads.assign(planes_.size(), {});
-    for (WallList<T>& list : domain.walls) {
-        const auto w = static_cast<std::size_t>(list.wall);
-        const kernels::PassResult of_wall = kernels_.wall[variant(world_.has_wall_friction)](
-            domain.records.data(), planes_[w], list.list.view(most_used_, scratch.touching),
-            scratch.loads.data(), parameters, wall_loads[w]);
+    const kernels::PairParameters<T> parameters = pair_parameters(task.domain);
+    for (WallList<T>& walls : lists_.of(task.d).walls) {
+        const auto w = static_cast<std::size_t>(walls.wall);
+        const kernels::PassResult of_wall =
+            kernel(task.domain.records.data(), planes_[w],
+                   lists_.in_play(walls.list, task.scratch.touching), task.scratch.loads.data(),
+                   parameters, wall_loads[w]);
         result.sums += of_wall.sums;
         result.too_deep |= of_wall.too_deep;
     }
-    if (!pass.again) domain.pass = result;
 }
 
 template <class T>
-void VectorEngine<T>::collect(const Pass& pass) {
-    if (!pass.again) {
-        world_.begin_wall_loads();
-        for (const Domain<T>& domain : domains_) {
-            world_.contact_sums += domain.pass.sums;
-            suspicious_ |= domain.pass.too_deep;
-            for (std::size_t w = 0; w < world_.planes.size(); ++w)
-                world_.wall_loads[w] += domain.wall_loads[w];
-        }
-        world_.end_evaluation();
-    }
-    if (pass.use != Pass::motion) return;
-    double used2 = 0;
-    for (const Domain<T>& domain : domains_) {
-        used2 = std::max(used2, domain.motion.used_reserve2);
-        suspicious_ |= domain.motion.too_far;
-        stale_ |= domain.motion.too_far;  // the next list build names what is not a number
-        world_.damping_work += domain.motion.damping_work;
-    }
-    used_reserve_ = std::sqrt(used2);
-}
-
-template <class T>
-kernels::PairParameters<T> VectorEngine<T>::pair_parameters() const {
+kernels::PairParameters<T> VectorEngine<T>::pair_parameters(const Domain<T>& domain) const {
     return {static_cast<T>(world_.scene.stiffness_ratio),
             static_cast<T>(world_.uniform_stiffness()),
             static_cast<T>(world_.uniform_friction()),
-            static_cast<T>(smallest_radius_),
+            static_cast<T>(world_.smallest_radius),
             static_cast<T>(world_.elapsed()),
-            0};
-}
-
-template <class T>
-kernels::MoveParameters<T> VectorEngine<T>::move_parameters(double step) const {
-    kernels::MoveParameters<T> p;
-    assign3(p.gravity, world_.scene.gravity);
-    p.force_damping = static_cast<T>(world_.scene.damping.force);
-    p.moment_damping = static_cast<T>(world_.scene.damping.moment);
-    p.old_step = static_cast<T>(world_.old_step);
-    p.new_step = static_cast<T>(step);
-    for (int a = 0; a < 3; ++a) p.middle[a] = middle_[a];
-    assign3(p.affine_shift, affine_.shift + affine_.scale.cwiseProduct(middle_));
-    assign3(p.affine_scale, affine_.scale);
-    return p;
+            static_cast<std::int32_t>(domain.own) * kernels::record_stride<T>};
 }
 
 template <class T>
@@ -316,21 +185,130 @@ kernels::WallPlane<T> VectorEngine<T>::wall_plane(std::size_t wall) const {
     kernels::WallPlane<T> p;
     assign3(p.normal, plane.normal);
     assign3(p.velocity, plane.velocity);
-    p.advance = static_cast<T>(plane.normal.dot(plane.point - built_walls_[wall]));
+    p.advance = static_cast<T>(plane.normal.dot(plane.point - lists_.built().walls[wall]));
     p.friction = static_cast<T>(plane.friction);
     p.stiffness = static_cast<T>(plane.normal_stiffness);
     p.stiffness_ratio = static_cast<T>(plane.stiffness_ratio);
     return p;
 }
 
-}  // namespace grainfield::core
+// --- stage 4: what becomes of the loads ----------------------------------------------------------
 
-#include "core/vector/vector_contacts.inc"
-#include "core/vector/vector_lists.inc"
-#include "core/vector/vector_search.inc"
-#include "core/vector/vector_state.inc"
+template <class T>
+kernels::MoveParameters<T> VectorEngine<T>::begin_motion(double step) {
+    lists_.buffers().foresee(step);
+    return move_parameters(step);
+}
 
-namespace grainfield::core {
+template <class T>
+void VectorEngine<T>::integrate(const Task& task, const kernels::MoveParameters<T>& motion) {
+    Domain<T>& domain = task.domain;
+    const auto kernel = kernels_.spheres.move(world_.motion_features());
+    domain.motion = kernel(domain.records.data(), task.scratch.loads.data(),
+                           domain.columns(lists_.built().position), motion, domain.ghost_begin());
+}
+
+template <class T>
+template <class Use>
+void VectorEngine<T>::for_resultants(const Task& task, const Use& use) {
+    Domain<T>& domain = task.domain;
+    domain.resultant_sum = 0;
+    for (std::size_t k = 0; k < domain.own; ++k) {
+        const Vec3 force =
+            vec3(task.scratch.loads[k].force) + mass_of(domain, k) * world_.scene.gravity;
+        domain.resultant_sum += force.norm();
+        use(k, force);
+    }
+}
+
+template <class T>
+void VectorEngine<T>::download_resultants() {
+    world_.force.resize(world_.size());
+    world_.moment.resize(world_.size());
+    for_domains(false, [&](const Task& task) {
+        replay_loads(task);
+        for_resultants(task, [&](std::size_t k, const Vec3& force) {
+            const std::size_t i = sample_.sphere(task.domain, k);
+            world_.force.set(i, force);
+            world_.moment.set(
+                i, world_.spheres().radius[i] * vec3(task.scratch.loads[k].moment_per_radius));
+        });
+    });
+}
+
+template <class T>
+kernels::MoveParameters<T> VectorEngine<T>::move_parameters(double step) const {
+    const kernels::AffineMotion& affine = lists_.buffers().affine();
+    const Vec3& middle = lists_.built().middle;
+    kernels::MoveParameters<T> p;
+    assign3(p.gravity, world_.scene.gravity);
+    p.force_damping = static_cast<T>(world_.scene.damping.force);
+    p.moment_damping = static_cast<T>(world_.scene.damping.moment);
+    p.old_step = static_cast<T>(world_.old_step);
+    p.new_step = static_cast<T>(step);
+    for (int a = 0; a < 3; ++a) p.middle[a] = middle[a];
+    assign3(p.affine_shift, affine.shift + affine.scale.cwiseProduct(middle));
+    assign3(p.affine_scale, affine.scale);
+    return p;
+}
+
+// --- stage 5: sums over the domains, in their order ----------------------------------------------
+
+template <class T>
+void VectorEngine<T>::reduce_forces() {
+    world_.begin_wall_loads();
+    for (const Domain<T>& domain : sample_.domains) {
+        world_.contact_sums += domain.pass.sums;
+        suspicious_ |= domain.pass.too_deep;
+        for (std::size_t w = 0; w < world_.planes.size(); ++w)
+            world_.wall_loads[w] += domain.wall_loads[w];
+    }
+    world_.end_evaluation();
+}
+
+template <class T>
+void VectorEngine<T>::reduce_motion() {
+    double used2 = 0;
+    for (const Domain<T>& domain : sample_.domains) {
+        used2 = std::max(used2, domain.motion.used_buffer2);
+        suspicious_ |= domain.motion.too_far;
+        if (domain.motion.too_far) lists_.invalidate();  // the rebuild names what is not a number
+        world_.damping_work += domain.motion.damping_work;
+    }
+    lists_.buffers().set_used_by_spheres(std::sqrt(used2));
+}
+
+// --- views ---------------------------------------------------------------------------------------
+
+template <class T>
+double VectorEngine<T>::resultant_sum() {
+    double sum = 0;
+    for (const Domain<T>& domain : sample_.domains) sum += domain.resultant_sum;
+    return sum;
+}
+
+template <class T>
+StepCost VectorEngine<T>::step_cost() const {
+    constexpr double record = sizeof(kernels::SphereRecord<T>);
+    constexpr double history = kernels::history_size * sizeof(T);
+    constexpr double candidate = 2 * sizeof(std::int32_t) + kernels::separation_size * sizeof(T);
+    const double bodies =
+        3 * sizeof(double) +
+        (world_.motion_features().gravity ? body_columns : weightless_columns) * sizeof(T);
+    StepCost cost;
+    for (std::size_t d = 0; d < sample_.size(); ++d) {
+        const Domain<T>& domain = sample_.domains[d];
+        const auto own = static_cast<double>(domain.own);
+        const auto ghosts = static_cast<double>(domain.ghost_slots.size());
+        const auto in_play = static_cast<double>(lists_.pairs_in_play(d));
+        const auto close = static_cast<double>(lists_.of(d).inner.begin[1]);
+        cost.bytes += own * (2 * record + bodies) +
+                      ghosts * 3 * record +  // read at home, written, read
+                      in_play * candidate + close * 2 * history;
+        cost.evaluated += domain.pass.contacts + contacts_.wall_count(d);
+    }
+    return cost;
+}
 
 template class VectorEngine<float>;
 template class VectorEngine<double>;

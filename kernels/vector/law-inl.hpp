@@ -87,9 +87,10 @@ struct Approach {
     Lane<T> gap_before;  ///< at the last force evaluation; negative if closed then [m]
 };
 
-/// Of the turns of a pair in one step the largest for which SmallMotion is good enough [rad]. It is
-/// off by a share of the turn, of what the step adds to the shear force: less than a tenth of the
-/// turn across the normal, up to four times the turn along it, which the next step takes away.
+/// The largest turn of a pair in one step for which SmallMotion is used [rad]. Its relative error
+/// in what the step adds to the shear force grows with the turn. Across the normal it is less than
+/// a tenth of the turn. Along the normal it is up to four times the turn, but the next step takes
+/// that part away.
 inline constexpr double small_turn = 3e-4;
 
 /// sphere_motion() where a pair turns by small angles only, as it does in nearly every step.

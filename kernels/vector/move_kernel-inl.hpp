@@ -177,14 +177,14 @@ MoveResult move_records(SphereRecord<T>* records, const SphereLoad<T>* loads,
                               hn::MulAdd(scale.y, place.y, shift.y),
                               hn::MulAdd(scale.z, place.z, shift.z)};
         const Lane3<T> beyond = u - affine;
-        const auto share = of_bodies(bodies.inverse_reserve, k);
+        const auto share = of_bodies(bodies.inverse_buffer, k);
         used = hn::Max(used, hn::Mul(dot(beyond, beyond), hn::Mul(share, share)));
     }
     if constexpr (Damping && Ledger) result.damping_work = 0.5 * sum_lanes<T>(twice_work);
     alignas(64) T lane[n];
     hn::Store(used, d, lane);
     for (T value : lane)
-        if (double{value} > result.used_reserve2) result.used_reserve2 = value;
+        if (double{value} > result.used_buffer2) result.used_buffer2 = value;
     result.too_far = !hn::AllTrue(d, sane);
     return result;
 }

@@ -1,5 +1,6 @@
-// Forces of candidate pairs of spheres. Lanes spent on pairs that do not touch cost as much as
-// contacts: of the candidates that are not close, those that touch are picked out first.
+// Forces of candidate pairs of spheres. A lane costs the same whether its pair touches or not.
+// Close candidates mostly touch, so all of them go through the law. The others mostly do not, so
+// those that touch are picked out first.
 
 #if defined(GRAINFIELD_PAIR_KERNEL_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINFIELD_PAIR_KERNEL_INL
@@ -161,7 +162,7 @@ HWY_INLINE void motion_batch(const PairCall<T>& call, PairBatch<T>& batch) {
 }
 
 /// Third stage: forces. Of pairs that do not touch they are zero, and their history is gone.
-template <class T, bool Friction, bool Sums, bool Again>
+template <class T, bool Friction, bool Sums, bool Replay>
 HWY_INLINE void force_batch(const PairCall<T>& call, PairBatch<T>& batch, LaneSums<T>& sums) {
     const PairLanes<T>& pair = batch.pair;
     const auto fn = hn::Mul(batch.kn, pair.overlap);  // Eq. (3a) of Tran et al.
@@ -174,7 +175,7 @@ HWY_INLINE void force_batch(const PairCall<T>& call, PairBatch<T>& batch, LaneSu
     }
     // The force on the centres does the work of the spring, whose lever arms are the radii.
     const auto lever = hn::Mul(pair.reach, pair.inverse_distance);
-    if constexpr (Again) {
+    if constexpr (Replay) {
         batch.force = plus_scaled(batch.force, lever, batch.shear);
     } else if constexpr (Friction) {
         const ShearLanes<T> spring =
@@ -197,18 +198,18 @@ HWY_INLINE void load_batch(const PairCall<T>& call, const PairBatch<T>& batch) {
 }
 
 /// All stages but the first, of `count` batches.
-template <class T, bool Friction, bool Sums, bool Again>
+template <class T, bool Friction, bool Sums, bool Replay>
 HWY_INLINE void finish_batches(const PairCall<T>& call, PairBatch<T>* batches, std::size_t count,
                                LaneSums<T>& sums) {
-    if constexpr (Friction && !Again)
+    if constexpr (Friction && !Replay)
         for (std::size_t q = 0; q < count; ++q) motion_batch<T>(call, batches[q]);
     for (std::size_t q = 0; q < count; ++q)
-        force_batch<T, Friction, Sums, Again>(call, batches[q], sums);
+        force_batch<T, Friction, Sums, Replay>(call, batches[q], sums);
     for (std::size_t q = 0; q < count; ++q) load_batch<T, Friction>(call, batches[q]);
 }
 
 /// Candidates that are close: one batch after the other, history in place.
-template <class T, bool Friction, bool PerSphere, bool Sums, bool Again>
+template <class T, bool Friction, bool PerSphere, bool Sums, bool Replay>
 HWY_INLINE void close_forces(const PairCall<T>& call, bool& too_deep, LaneSums<T>& sums,
                              PassResult& result) {
     constexpr std::size_t n = lanes<T>;
@@ -248,8 +249,8 @@ HWY_INLINE void close_forces(const PairCall<T>& call, bool& too_deep, LaneSums<T
                 c.touching[k / most_lanes] | batch.touching << (k % most_lanes));
             result.contacts += __builtin_popcount(batch.touching);
         }
-        finish_batches<T, Friction, Sums, Again>(call, batches, count, sums);
-        if constexpr (Friction && !Again)
+        finish_batches<T, Friction, Sums, Replay>(call, batches, count, sums);
+        if constexpr (Friction && !Replay)
             for (std::size_t q = 0; q < count; ++q) {
                 const Lane3<T>& shear = batches[q].shear;
                 T* history = c.history + in_block(first + q * n, 0, history_size);
@@ -293,7 +294,7 @@ HWY_INLINE std::size_t find_touching(const PairCall<T>& call) {
 }
 
 /// The candidates picked out by find_touching().
-template <class T, bool Friction, bool PerSphere, bool Sums, bool Again>
+template <class T, bool Friction, bool PerSphere, bool Sums, bool Replay>
 HWY_INLINE void picked_forces(const PairCall<T>& call, bool& too_deep, LaneSums<T>& sums,
                               PassResult& result) {
     constexpr std::size_t n = lanes<T>;
@@ -326,8 +327,8 @@ HWY_INLINE void picked_forces(const PairCall<T>& call, bool& too_deep, LaneSums<
             {hn::Load(d, separation[0]), hn::Load(d, separation[1]), hn::Load(d, separation[2]),
              hn::Load(d, separation[3])},
             batch, too_deep);
-        finish_batches<T, Friction, Sums, Again>(call, &batch, 1, sums);
-        if constexpr (Friction && !Again) {
+        finish_batches<T, Friction, Sums, Replay>(call, &batch, 1, sums);
+        if constexpr (Friction && !Replay) {
             hn::Store(batch.shear.x, d, history[0]);
             hn::Store(batch.shear.y, d, history[1]);
             hn::Store(batch.shear.z, d, history[2]);
@@ -339,14 +340,14 @@ HWY_INLINE void picked_forces(const PairCall<T>& call, bool& too_deep, LaneSums<
     }
 }
 
-template <class T, bool Friction, bool PerSphere, bool Sums, bool Again>
+template <class T, bool Friction, bool PerSphere, bool Sums, bool Replay>
 PassResult pair_forces(const SphereRecord<T>* records, Candidates<T> c, SphereLoad<T>* loads,
                        const PairParameters<T>& p) {
     PassResult result;
     const PairCall<T> call{records, c, loads, p};
     LaneSums<T> sums;
-    close_forces<T, Friction, PerSphere, Sums, Again>(call, result.too_deep, sums, result);
-    picked_forces<T, Friction, PerSphere, Sums, Again>(call, result.too_deep, sums, result);
+    close_forces<T, Friction, PerSphere, Sums, Replay>(call, result.too_deep, sums, result);
+    picked_forces<T, Friction, PerSphere, Sums, Replay>(call, result.too_deep, sums, result);
     if constexpr (Sums) result.sums = sums.total();
     return result;
 }

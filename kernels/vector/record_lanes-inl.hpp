@@ -16,8 +16,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainfield::kernels::HWY_NAMESPACE {
 
-/// What two records of a lane have in common, component by component as in SphereRecord: b - a of
-/// u and v, a + b of all else; of the friction the smaller one where it was asked for.
+/// The two records of each lane made one, component by component as in SphereRecord: b - a for u
+/// and v, a + b for all else. Where asked for, the friction is the smaller of the two.
 template <class T>
 struct PairColumns {
     std::array<Lane<T>, 16> column;

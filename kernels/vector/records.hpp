@@ -13,8 +13,8 @@
 
 namespace grainfield::kernels {
 
-/// All that a contact needs. What it needs of two spheres are differences (u, v) and sums (the
-/// rest): these are formed from two whole records at once, and only the result is transposed.
+/// All that a contact needs. Of two spheres it needs differences (u, v) and sums (the rest). Both
+/// are formed from whole records, and only the result is transposed.
 template <class T>
 struct alignas(16 * sizeof(T)) SphereRecord {
     T u[3];            ///< displacement since the lists were built [m]
@@ -39,8 +39,8 @@ struct alignas(8 * sizeof(T)) SphereLoad {
 };
 static_assert(sizeof(SphereLoad<float>) == 32);
 
-/// Lists name a record by its number times this: an address is then a multiple that processors
-/// form as they load.
+/// Lists name a record by its number times this. The address of a record is then 8 times its entry
+/// in a list, and x86 multiplies by 8 as part of a load.
 template <class T>
 inline constexpr std::int32_t record_stride = sizeof(SphereRecord<T>) / 8;
 template <class T>
@@ -60,19 +60,19 @@ SphereLoad<T>& load_of(SphereLoad<T>* loads, std::int32_t entry) {
 /// four are padded to multiples of most_lanes, the others are not.
 template <class T>
 struct BodyColumns {
-    std::size_t own;           ///< how many spheres
-    const T* inverse_mass;     ///< of the motion; differs from 1/mass if scaled [1/kg]
-    const T* spin_response;    ///< radius over moment of inertia [1/(kg m)]
-    const T* mass;             ///< gravitational [kg]
-    const T* inverse_reserve;  ///< 1 over what it may move beyond the box's strain [1/m]
-    const double *x, *y, *z;   ///< centre when the lists were built [m]
+    std::size_t own;          ///< how many spheres
+    const T* inverse_mass;    ///< of the motion; differs from 1/mass if scaled [1/kg]
+    const T* spin_response;   ///< radius over moment of inertia [1/(kg m)]
+    const T* mass;            ///< gravitational [kg]
+    const T* inverse_buffer;  ///< 1 over what it may move beyond the box's strain [1/m]
+    const double *x, *y, *z;  ///< centre when the lists were built [m]
 };
 
 /// Where a sphere was when the lists were built: all that makes two of them neighbours.
 struct alignas(64) BuiltPlace {
     double x[3];      ///< centre [m]
     double radius;    ///< [m]
-    double reserve;   ///< what it may move beyond the box's strain [m]
+    double buffer;    ///< what it may move beyond the box's strain [m]
     double spare[3];  ///< unused [-]
 };
 
@@ -84,12 +84,11 @@ inline constexpr std::size_t padded(std::size_t n) {
     return (n + most_lanes - 1) / most_lanes * most_lanes;
 }
 
-/// Candidates are sorted by how much of their reserves two bodies must use up before they can
-/// meet: in the first stretch, a short one, are those that touch or nearly do, the last may be left
-/// alone for long. A step looks at the stretches that the motion since the build has brought into
-/// play.
-inline constexpr std::size_t stretches = 8;
-inline constexpr double first_stretch = 0.01;  ///< its length, as a share of the reserves [-]
+/// Candidates are sorted into bins by the share of their buffers that two bodies must use up before
+/// they can meet. Bin 0 is narrow: its pairs touch or nearly do. A step looks at the bins that
+/// motion since the build has brought into play, and at no others.
+inline constexpr std::size_t distance_bins = 8;
+inline constexpr double first_bin = 0.01;  ///< its length, as a share of the buffers [-]
 
 /// Candidates stand in blocks of most_lanes, component by component: x of all of a block, then y,
 /// z and so on. Place of a component of candidate k in a column of `components`:
@@ -103,19 +102,20 @@ inline constexpr std::size_t separation_size = 4, gap_component = 3;
 /// not touch [N].
 inline constexpr std::size_t history_size = 3;
 
-/// Pairs of spheres that may become candidates, padded to multiples of most_lanes.
+/// Pairs of the outer list, padded to multiples of most_lanes.
 template <class T>
-struct Neighbours {
+struct OuterPairs {
     std::size_t size;
     const std::int32_t *a, *b;  ///< places
     T* separation;              ///< in blocks
-    std::uint8_t* stretch;      ///< `stretches` if they cannot meet before the next lists
+    std::uint8_t* bin;          ///< `distance_bins` if they cannot meet before the next build
 };
 
-/// Candidate contacts, two spheres (or a sphere and a wall: b is unused) each. The kernels look at
-/// the first `size`. Of these the first `close`, most of which touch, go through the contact law as
-/// they are; from the others those that touch are picked out first. Both are multiples of
-/// most_lanes. One candidate, `idle`, is padding: it never touches, and its records count nowhere.
+/// The candidates that a step looks at: pairs of spheres, or a sphere and a wall (b is unused). The
+/// kernels take the first `size` of the list. The first `close` of these are bin 0: most touch, and
+/// all go through the contact law. Of the others only those that touch do. Both numbers are
+/// multiples of most_lanes. The candidate `idle` is padding: it never touches, and the loads of its
+/// records count nowhere.
 template <class T>
 struct Candidates {
     std::size_t size, close;
@@ -164,9 +164,9 @@ struct MoveParameters {
 };
 
 struct MoveResult {
-    double used_reserve2 = 0;  ///< largest square of motion beyond affine over reserve [-]
-    double damping_work = 0;   ///< with the ledger only [J]
-    bool too_far = false;      ///< a sphere moved more than half its radius, or is not a number
+    double used_buffer2 = 0;  ///< largest square of motion beyond affine over buffer [-]
+    double damping_work = 0;  ///< with the ledger only [J]
+    bool too_far = false;     ///< a sphere moved more than half its radius, or is not a number
 };
 
 }  // namespace grainfield::kernels

@@ -2,18 +2,9 @@
 
 #include <hwy/targets.h>
 
-namespace grainfield::kernels {
+#include <iterator>
 
-const char* name(InstructionSet isa) {
-    switch (isa) {
-        case InstructionSet::avx2:
-            return "avx2";
-        case InstructionSet::avx512:
-            return "avx512";
-        default:
-            return "scalar";
-    }
-}
+namespace grainfield::kernels {
 
 bool runs_here(InstructionSet isa) {
     switch (isa) {
@@ -36,8 +27,8 @@ struct Tables {
     Tables() {
         for (const InstructionSet isa : instruction_sets) {
             const auto k = static_cast<std::size_t>(isa);
-            mixed[k] = {name(isa), "mixed", nullptr, float_kernels(isa), nullptr};
-            full[k] = {name(isa), "double", nullptr, nullptr, double_kernels(isa)};
+            mixed[k] = {isa, "mixed", nullptr, float_kernels(isa), nullptr};
+            full[k] = {isa, "double", nullptr, nullptr, double_kernels(isa)};
         }
     }
 };

@@ -21,7 +21,7 @@ double wall_shear_stiffness(double radius, double k, const WallPlane<T>& wall,
     return a > 0 && b > 0 ? radius * a * b / (a + b) : 0.0;
 }
 
-template <class T, bool Friction, bool PerSphere, bool Sums, bool Again>
+template <class T, bool Friction, bool PerSphere, bool Sums, bool Replay>
 PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall, Candidates<T> c,
                        SphereLoad<T>* loads, const PairParameters<T>& p, WallLoad& total) {
     constexpr std::size_t n = lanes<T>;
@@ -73,7 +73,7 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
                 shear = {hn::Load(d, history), hn::Load(d, history + most_lanes),
                          hn::Load(d, history + 2 * most_lanes)};
             }
-            if constexpr (Friction && !Again) {
+            if constexpr (Friction && !Replay) {
                 const Lane3<T> velocity = wall_velocity - v.xyz(), before = shear;
                 const TangentialLanes<T> motion =
                     plane_motion<T>(outward, u.w, velocity, w.xyz(), before, step);

@@ -95,7 +95,7 @@ inline Config changed_config() {
     c.field.stiffness = {MarginalKind::beta, 1e8, 9e9, 3, 8e8, 1.6, -1e7, true};
     c.triaxial = {200e3, 0.02, 0.05, 9.81};
     c.time = {1e-6, 0.7, 2};
-    c.solver = {core::Precision::double_, core::Isa::avx2};
+    c.solver = {core::Precision::double_, kernels::InstructionSet::avx2};
     c.montecarlo = {3, false, 0.02, 0.2};
     return c;
 }

@@ -149,7 +149,7 @@ TEST_F(LoadConfig, SettingsGoOverTheFileAndLaterOnesOverEarlier) {
     expected.field.variable = randomfield::Variable::friction;
     expected.field.friction.minimum = 0.25;
     expected.field.friction.s = 1;
-    expected.solver.isa = core::Isa::scalar;
+    expected.solver.isa = kernels::InstructionSet::scalar;
     expected.montecarlo.deterministic = false;
     expect_equal(load_config(file, settings), expected);
 }
@@ -178,7 +178,7 @@ TEST(ConfigValidate, ChecksWhatNoFileChecked) {
     EXPECT_THAT(message_of<InputError>([&] { config.validate(); }),
                 StartsWith("triaxial.strain_rate = nan"));
     config = {};
-    config.solver.isa = static_cast<core::Isa>(17);
+    config.solver.isa = static_cast<kernels::InstructionSet>(17);
     EXPECT_THAT(message_of<InputError>([&] { config.validate(); }), StartsWith("solver.isa"));
     config = {};
     config.packing.seed = ~std::uint64_t{0};  // TOML could not hold it

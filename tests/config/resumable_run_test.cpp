@@ -51,8 +51,9 @@ TEST(ResumedRun, NamesTheFirstKeyThatDiffers) {
 
 TEST(ResumedRun, HasTheKernelsOfItsCheckpointUnlessOthersAreAskedFor) {
     const core::FoundCheckpoint found = checkpoint_of({});
-    EXPECT_EQ(resumed_solver(found, "triaxial", {}).isa, core::Isa::avx2);
-    EXPECT_EQ(resumed_solver(found, "triaxial", {.isa = core::Isa::scalar}).isa, core::Isa::scalar);
+    EXPECT_EQ(resumed_solver(found, "triaxial", {}).isa, kernels::InstructionSet::avx2);
+    EXPECT_EQ(resumed_solver(found, "triaxial", {.isa = kernels::InstructionSet::scalar}).isa,
+              kernels::InstructionSet::scalar);
     EXPECT_EQ(message_of<InputError>([&] { resumed_solver(found, "simulate", {}); }),
               "--resume: run/checkpoint.bin is a checkpoint of `triaxial`");
 }

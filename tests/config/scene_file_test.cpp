@@ -33,7 +33,7 @@ TEST_F(Scene, DefaultsAreUndampedWeightlessAndWithoutWalls) {
     EXPECT_EQ(scene.damping.force, 0);
     EXPECT_EQ(scene.damping.moment, 0);
     EXPECT_EQ(scene.solver.precision, core::Precision::double_);
-    EXPECT_EQ(scene.solver.isa, core::Isa::automatic);
+    EXPECT_EQ(scene.solver.isa, std::nullopt);
     EXPECT_TRUE(scene.walls.empty());
     EXPECT_EQ(scene.output_interval, 0.01 / 100);
 }
@@ -82,7 +82,7 @@ interval = 1e-5
     EXPECT_EQ(scene.damping.force, 0.3);
     EXPECT_EQ(scene.damping.moment, 0.4);
     EXPECT_EQ(scene.solver.precision, core::Precision::mixed);
-    EXPECT_EQ(scene.solver.isa, core::Isa::avx512);
+    EXPECT_EQ(scene.solver.isa, kernels::InstructionSet::avx512);
     EXPECT_EQ(scene.step, 1e-6);
     EXPECT_EQ(scene.safety, 0.5);
     EXPECT_EQ(scene.mass_scaling, 3);
@@ -115,7 +115,7 @@ TEST_F(Scene, SettingsGoOverTheFile) {
     EXPECT_EQ(scene.end, 0.5);
     EXPECT_EQ(scene.output_interval, 0.005);
     EXPECT_EQ(scene.spheres, folder_ / "other.csv");
-    EXPECT_EQ(scene.solver.isa, core::Isa::scalar);
+    EXPECT_EQ(scene.solver.isa, kernels::InstructionSet::scalar);
 }
 
 TEST_F(Scene, MistakesNameLineAndKey) {

@@ -33,7 +33,7 @@ using Lists = KernelTest;
 void expect_complete(Simulation& sim, double step, int steps) {
     for (int k = 0; k < steps; ++k) {
         sim.compute_forces();
-        ASSERT_EQ(sim.touching_contacts(), true_contacts(sim)) << "step " << k;
+        ASSERT_EQ(sim.contacts().count(), true_contacts(sim)) << "step " << k;
         sim.advance(step);
     }
 }
@@ -45,8 +45,8 @@ TEST_P(Lists, NoContactIsMissedInACompressedBox) {
         sim.set_wall_velocity(1, Vec3(-0.2, 0, 0));
         sim.set_wall_velocity(3, Vec3(0, -0.4, 0));
         expect_complete(sim, 2e-4, 800);
-        EXPECT_GT(sim.touching_contacts(), 50);
-        EXPECT_LT(sim.list_builds(), 400);
+        EXPECT_GT(sim.contacts().count(), 50);
+        EXPECT_LT(sim.stats().list_builds(), 400);
     }
 }
 
@@ -71,19 +71,19 @@ TEST_P(Lists, NoContactOfAFewFastSpheresIsMissed) {
     scene.walls = box_walls({Vec3::Zero(), size}, plane(Vec3::Zero(), Vec3::UnitX(), 0.3));
     Simulation sim(std::move(scene), table());
     sim.set_wall_velocity(3, Vec3(0, -0.2, 0));
-    sim.add_velocities(
+    sim.change().add_velocities(
         [&](std::size_t, const Vec3& x) { return Vec3(0, -0.2 * x.y() / size.y(), 0); });
     for (int k = 0; k < 400; ++k) {
         sim.compute_forces();
         if (k % 4 == 0) {
-            ASSERT_EQ(sim.touching_contacts(), true_contacts(sim)) << "step " << k;
+            ASSERT_EQ(sim.contacts().count(), true_contacts(sim)) << "step " << k;
         }
         sim.advance(2e-4);
     }
     EXPECT_GT(true_contacts(sim), 0);
     if (is_reference()) return;
-    EXPECT_GT(sim.neighbour_renewals(), 5);
-    EXPECT_LT(sim.neighbour_searches(), sim.neighbour_renewals());
+    EXPECT_GT(sim.stats().partial_rebuilds(), 5);
+    EXPECT_LT(sim.stats().searches(), sim.stats().partial_rebuilds());
 }
 
 TEST_P(Lists, AreNotBuiltAnewWhileSpheresFollowTheBox) {
@@ -100,11 +100,11 @@ TEST_P(Lists, AreNotBuiltAnewWhileSpheresFollowTheBox) {
     Simulation sim(std::move(scene), table());
     for (std::size_t a = 0; a < 3; ++a)
         sim.set_wall_velocity(2 * a + 1, rate[a] * size[a] * Vec3::Unit(a));
-    sim.add_velocities(
+    sim.change().add_velocities(
         [&](std::size_t, const Vec3& x) { return Vec3(rate.cwiseProduct(x - corner)); });
     run_steps(sim, 1e-3, 20);
     sim.compute_forces();
-    EXPECT_EQ(sim.list_builds(), 1);
+    EXPECT_EQ(sim.stats().list_builds(), 1);
 }
 
 TEST_P(Lists, NoContactIsMissedAtASkewWallInATravellingBox) {
@@ -125,7 +125,8 @@ TEST_P(Lists, NoContactIsMissedThatOnlyTheStrainOfTheBoxMakes) {
     scene.walls = box_walls({Vec3::Zero(), Vec3::Ones()}, plane(Vec3::Zero(), Vec3::UnitX()));
     Simulation sim(std::move(scene), table(), {.skin = 1e-3});
     sim.set_wall_velocity(3, Vec3(0, rate, 0));
-    sim.add_velocities([&](std::size_t, const Vec3& x) { return Vec3(0, rate * x.y(), 0); });
+    sim.change().add_velocities(
+        [&](std::size_t, const Vec3& x) { return Vec3(0, rate * x.y(), 0); });
     expect_complete(sim, 1e-3, 85);
     EXPECT_EQ(true_contacts(sim), 1);
 }
@@ -147,25 +148,25 @@ TEST_P(Lists, SpheresThatNearlyTouchDoNot) {
     Scene scene = scene_of({Ball{}, Ball{.x = Vec3(2 * test_radius + gap, 0, 0)}});
     Simulation sim(std::move(scene), table(), {.skin = 0.4 * test_radius});
     sim.compute_forces();
-    sim.add_velocities([&](std::size_t i, const Vec3&) -> Vec3 {
+    sim.change().add_velocities([&](std::size_t i, const Vec3&) -> Vec3 {
         return Vec3(i == 0 ? 0.495 : -0.495, 0, 0) * gap / 1e-4;
     });
     for (const int contacts : {0, 1}) {
         run_steps(sim, 1e-4, 1);
         sim.compute_forces();
-        EXPECT_EQ(sim.touching_contacts(), contacts);
-        EXPECT_EQ(sim.step_cost().evaluated, contacts);
+        EXPECT_EQ(sim.contacts().count(), contacts);
+        EXPECT_EQ(sim.stats().step_cost().evaluated, contacts);
     }
-    EXPECT_EQ(sim.list_builds(), 1);
+    EXPECT_EQ(sim.stats().list_builds(), 1);
 }
 
 TEST_P(Lists, NoContactIsMissedWhenAWallIsPutElsewhere) {
     Simulation sim(box_scene(0.0), table(), {.skin = 0.2 * test_radius});
     run_steps(sim, 1e-4, 3);
-    sim.set_wall_point(3, sim.walls()[3].point - Vec3(0, 1.2 * test_radius, 0));
+    sim.change().set_wall_point(3, sim.walls()[3].point - Vec3(0, 1.2 * test_radius, 0));
     sim.compute_forces();
     EXPECT_GT(true_contacts(sim), 20);
-    EXPECT_EQ(sim.touching_contacts(), true_contacts(sim));
+    EXPECT_EQ(sim.contacts().count(), true_contacts(sim));
 }
 
 TEST_P(Lists, ContactsKeepTheirHistoryOverARebuild) {
@@ -173,15 +174,15 @@ TEST_P(Lists, ContactsKeepTheirHistoryOverARebuild) {
     scene.walls = {plane(Vec3(0, -0.999 * test_radius, 0), Vec3::UnitY(), 10.0)};
     Simulation sim(std::move(scene), table());
     sim.compute_forces();
-    ASSERT_TRUE(sim.restore_shear(0, 1, Vec3(0, 3, 4)));
-    ASSERT_TRUE(sim.restore_shear(1, -1, Vec3(1, 0, 2)));
-    EXPECT_FALSE(sim.restore_shear(0, -2, Vec3::Zero()));
+    ASSERT_TRUE(sim.change().restore_shear(0, 1, Vec3(0, 3, 4)));
+    ASSERT_TRUE(sim.change().restore_shear(1, -1, Vec3(1, 0, 2)));
+    EXPECT_FALSE(sim.change().restore_shear(0, -2, Vec3::Zero()));
     for (int k = 0; k < 2; ++k) {
-        const std::int64_t builds = sim.list_builds();
-        sim.rebuild_lists();
+        const std::int64_t builds = sim.stats().list_builds();
+        sim.change().rebuild_lists();
         sim.compute_forces();
-        EXPECT_EQ(sim.list_builds(), builds + 1);
-        const auto contacts = sim.touching();
+        EXPECT_EQ(sim.stats().list_builds(), builds + 1);
+        const auto contacts = sim.contacts().touching();
         ASSERT_EQ(contacts.size(), 3u);
         // The normals come in with the round-off of the list.
         EXPECT_LT((contacts[0].shear - Vec3(0, 3, 4)).norm(), roundoff(50));
@@ -201,10 +202,10 @@ TEST_P(Lists, TheSpringOfAPairThatIsGoneGoesToNoOther) {
         }
         Simulation sim(scene_of(balls, 10.0), table());
         sim.compute_forces();
-        ASSERT_TRUE(sim.restore_shear(0, static_cast<int>(gone) + 1, Vec3(2, 2, 2)));
+        ASSERT_TRUE(sim.change().restore_shear(0, static_cast<int>(gone) + 1, Vec3(2, 2, 2)));
         sim.advance(1e-4);
         sim.compute_forces();
-        const auto contacts = sim.touching();
+        const auto contacts = sim.contacts().touching();
         ASSERT_EQ(contacts.size(), 5u);
         for (const TouchingContact& contact : contacts) EXPECT_LT(contact.shear.norm(), 1e-2);
     }
@@ -216,11 +217,11 @@ TEST_P(Lists, ReplacedWallsForgetTheirHistory) {
     scene.walls = {floor};
     Simulation sim(std::move(scene), table());
     sim.compute_forces();
-    ASSERT_TRUE(sim.restore_shear(0, -1, Vec3(1e-3, 0, 0)));
-    sim.set_walls({floor, plane(Vec3(-1, 0, 0), Vec3::UnitX())});
+    ASSERT_TRUE(sim.change().restore_shear(0, -1, Vec3(1e-3, 0, 0)));
+    sim.change().set_walls({floor, plane(Vec3(-1, 0, 0), Vec3::UnitX())});
     sim.compute_forces();
-    EXPECT_EQ(sim.touching_contacts(), 1);
-    EXPECT_EQ(sim.touching()[0].shear, Vec3::Zero());
+    EXPECT_EQ(sim.contacts().count(), 1);
+    EXPECT_EQ(sim.contacts().touching()[0].shear, Vec3::Zero());
 }
 
 TEST_P(Lists, ComputingForcesTwiceChangesNothing) {
@@ -229,12 +230,12 @@ TEST_P(Lists, ComputingForcesTwiceChangesNothing) {
     Simulation sim(std::move(scene), table(), {.ledger = true});
     run_steps(sim, 1e-4, 1);
     sim.compute_forces();
-    const Vec3 shear = sim.touching()[0].shear;
+    const Vec3 shear = sim.contacts().touching()[0].shear;
     const double closing = sim.energy().closing();
     EXPECT_GT(shear.norm(), 0.0);
     sim.compute_forces(true);
     // Without motion the spring is turned by nothing, to round-off.
-    EXPECT_LT((sim.touching()[0].shear - shear).norm(), roundoff(4) * shear.norm());
+    EXPECT_LT((sim.contacts().touching()[0].shear - shear).norm(), roundoff(4) * shear.norm());
     EXPECT_NEAR(sim.energy().closing(), closing, roundoff(16) * std::abs(closing));
 }
 

@@ -42,13 +42,14 @@ TEST_P(Engines, ForcesAndMotionAreThoseOfTheReference) {
         for (int k = 0; k < 5; ++k) {
             sim.compute_forces(true);
             reference.compute_forces(true);
-            ASSERT_EQ(sim.touching_contacts(), reference.touching_contacts());
+            ASSERT_EQ(sim.contacts().count(), reference.contacts().count());
             // Overlaps of some 1e-2 of the radius come in with the round-off of the distance, the
             // shear forces with that of a step's motion; a few contacts a sphere add up.
             const double scale = 0.5 * test_radius * 5 * test_stiffness * 0.1 * test_radius;
             double worst = 0;
             for (std::size_t i = 0; i < sim.size(); ++i)
-                worst = larger(worst, (sim.resultant(i) - reference.resultant(i)).norm());
+                worst = larger(
+                    worst, (sim.sphere(i).resultant() - reference.sphere(i).resultant()).norm());
             EXPECT_LT(worst, roundoff(1000) * scale) << k;
             for (std::size_t w = 0; w < 6; ++w) {
                 const kernels::WallLoad &a = sim.wall_loads()[w], &b = reference.wall_loads()[w];
@@ -56,7 +57,7 @@ TEST_P(Engines, ForcesAndMotionAreThoseOfTheReference) {
                 EXPECT_NEAR(a.stiffness, b.stiffness, roundoff(100) * b.stiffness);
                 EXPECT_EQ(a.contacts, b.contacts);
             }
-            const kernels::ContactSums &a = sim.contact_sums(), &b = reference.contact_sums();
+            const kernels::ContactSums &a = sim.contacts().sums(), &b = reference.contacts().sums();
             EXPECT_EQ(a.contacts, b.contacts);
             EXPECT_NEAR(a.normal_force, b.normal_force, roundoff(100) * b.normal_force);
             EXPECT_NEAR(a.elastic_normal, b.elastic_normal, roundoff(200) * b.elastic_normal);
@@ -88,14 +89,14 @@ TEST_P(Engines, PropertiesChangedBetweenForcesAndMotionKeepMomentum) {
     sim.compute_forces();
     double impulse = 0, total = 0;  // what goes into the sums
     for (std::size_t i = 0; i < sim.size(); ++i) {
-        impulse += 1e-4 * sim.resultant(i).norm();
+        impulse += 1e-4 * sim.sphere(i).resultant().norm();
         total += sim.spheres().mass[i] * sim.spheres().velocity[i].norm();
     }
     std::vector<double> stiffness(sim.size()), friction(sim.size(), 0.3);
     for (std::size_t i = 0; i < sim.size(); ++i)
         stiffness[i] = test_stiffness * static_cast<double>(1 + i % 7);
     const Vec3 before = momentum();
-    sim.set_properties(stiffness, friction);
+    sim.change().set_properties(stiffness, friction);
     sim.advance(1e-4);
     EXPECT_GT(impulse, 1e-4 * total) << "too few contacts";
     EXPECT_LT((momentum() - before).norm(), roundoff(10) * (impulse + total));
@@ -115,7 +116,7 @@ TEST_P(Engines, WhatAPairGetsDoesNotDependOnOthers) {
             sim.advance(step);
         }
         sim.compute_forces();
-        const std::vector<TouchingContact> touching = sim.touching();
+        const std::vector<TouchingContact> touching = sim.contacts().touching();
         EXPECT_EQ(touching.size(), all.size() / 2);
         return touching.empty() ? Vec3::Zero().eval() : touching[0].shear;
     };
@@ -153,7 +154,7 @@ TEST_P(Engines, StepsInOneGoGiveTheSameBits) {
 TEST_P(Engines, ScaledVelocitiesAreScaled) {
     Simulation sim(crowd(false), table());
     const ParticleStore before = sim.spheres();
-    sim.scale_velocities(0.5);
+    sim.change().scale_velocities(0.5);
     for (std::size_t i = 0; i < sim.size(); i += 97) {
         EXPECT_EQ(sim.spheres().velocity[i], as_kept(0.5 * before.velocity[i]));
         EXPECT_EQ(sim.spheres().spin[i], as_kept(0.5 * before.spin[i]));
@@ -194,14 +195,14 @@ TEST(SpatialOrder, TakesSpheresInOnePlaceAndNone) {
     EXPECT_TRUE(order_in_space(Vec3Column{}, 700).sphere.empty());
 }
 
-TEST(CandidateList, KeepsHistoryThroughBuildsAndStretches) {
-    // Six proposals, of records 0 and 1, 1 and 2, ...; those of stretch 8 are no candidates.
-    const auto proposals = [](const std::array<std::uint8_t, 6>& stretch) {
+TEST(CandidateList, KeepsHistoryThroughBuildsAndBins) {
+    // Six proposals, of records 0 and 1, 1 and 2, ...; those of bin 8 are no candidates.
+    const auto proposals = [](const std::array<std::uint8_t, 6>& bin) {
         Proposals p;
-        p.resize(stretch.size(), 99);
-        for (std::size_t k = 0; k < stretch.size(); ++k) {
+        p.resize(bin.size(), 99);
+        for (std::size_t k = 0; k < bin.size(); ++k) {
             p.b[k] = static_cast<std::int32_t>(k) + 1;
-            p.stretch[k] = stretch[k];
+            p.bin[k] = bin[k];
         }
         return p;
     };

@@ -108,23 +108,23 @@ TEST_P(Frequency, AgreesWithTheDenseEigenvalue) {
             }
 }
 
-TEST_P(Frequency, IsZeroWithoutContactsAndThatOfACaughtSphereIsDefined) {
+TEST_P(Frequency, IsZeroWithoutContactsAndThatOfACagedSphereIsDefined) {
     Simulation sim(scene_of({Ball{}, Ball{.x = Vec3(1, 0, 0), .radius = 0.01}}), table());
     sim.compute_forces();
     EXPECT_EQ(FrequencyEstimator().estimate(sim), 0.0);
     // Two contacts on opposite sides of the lightest sphere: 4 K_n/m.
     const double expected = std::sqrt(4 * 0.01 * test_stiffness / 2 / sphere_mass(0.01));
-    EXPECT_NEAR(caught_frequency(sim, 0), expected, 1e-12 * expected);
+    EXPECT_NEAR(caged_frequency(sim, 0), expected, 1e-12 * expected);
     // Rolling and sliding of one contact, both bodies turning: 7 K_s/m.
     Scene rough = sim.scene();
     rough.stiffness_ratio = 1.0;
     Simulation turning(std::move(rough), table());
     turning.compute_forces();
-    EXPECT_NEAR(caught_frequency(turning, 0), std::sqrt(7.0 / 4.0) * expected, 1e-12 * expected);
+    EXPECT_NEAR(caged_frequency(turning, 0), std::sqrt(7.0 / 4.0) * expected, 1e-12 * expected);
 }
 
 TEST_P(Frequency, SmoothContactsCountBesideRoughOnes) {
-    // A sphere rolls on the rough floor at 3.5 K_s/m; another is caught between smooth walls, at
+    // A sphere rolls on the rough floor at 3.5 K_s/m; another is caged between smooth walls, at
     // 2 K_n/m, which is a little more. On the mass, K_n of the one is far less than K_n + 2 K_s of
     // the other.
     Scene scene = scene_of(
@@ -137,12 +137,12 @@ TEST_P(Frequency, SmoothContactsCountBesideRoughOnes) {
                    plane(Vec3(0.099, 0, 0), -Vec3::UnitX())};
     const double kn = test_radius * test_stiffness / 2;
     const double rolling = 3.5 * 0.03 * test_stiffness * 0.108 / 1.108 / sphere_mass(0.03);
-    const double caught = 2 * kn / sphere_mass(test_radius);
-    ASSERT_GT(caught, 1.05 * rolling);
-    EXPECT_NEAR(estimate(scene, table()), std::sqrt(caught), 0.005 * std::sqrt(caught));
+    const double caged = 2 * kn / sphere_mass(test_radius);
+    ASSERT_GT(caged, 1.05 * rolling);
+    EXPECT_NEAR(estimate(scene, table()), std::sqrt(caged), 0.005 * std::sqrt(caged));
 }
 
-TEST_P(Frequency, ACaughtSphereIsAsFastAsItsNeighboursAllow) {
+TEST_P(Frequency, ACagedSphereIsAsFastAsItsNeighboursAllow) {
     // A light stiff sphere between two soft heavy ones: K_n (1/m + 1/M) of each contact, which is
     // less than between two of its own kind. Bands of 1e-12: both are a few operations.
     const double gap = 1e-6, soft = 1e6, stiff = 1e9, small = 0.005, large = 0.02;
@@ -156,17 +156,17 @@ TEST_P(Frequency, ACaughtSphereIsAsFastAsItsNeighboursAllow) {
     const double kn = 0.5 * (small + large) * soft * stiff / (soft + stiff);
     const double inverse_masses = 1 / sphere_mass(small) + 1 / sphere_mass(large);
     const double expected = std::sqrt(2 * kn * inverse_masses);
-    EXPECT_NEAR(caught_frequency(sim, 0), expected, 1e-12 * expected);
+    EXPECT_NEAR(caged_frequency(sim, 0), expected, 1e-12 * expected);
     // Rough ones: both bodies of the stiffer contact turning, 3.5 K_s (1/m + 1/M).
     Scene rough = sim.scene();
     rough.stiffness_ratio = 1.0;
     Simulation turning(std::move(rough), table());
     turning.compute_forces();
     const double fastest = std::sqrt(3.5 * kn * inverse_masses);
-    EXPECT_NEAR(caught_frequency(turning, 0), fastest, 1e-12 * fastest);
+    EXPECT_NEAR(caged_frequency(turning, 0), fastest, 1e-12 * fastest);
     // Known to be faster than any sphere alone could be: no need to look at neighbours.
     const double alike = std::sqrt(4 * small * stiff / 2 / sphere_mass(small));
-    EXPECT_NEAR(caught_frequency(sim, 2 * alike), alike, 1e-12 * alike);
+    EXPECT_NEAR(caged_frequency(sim, 2 * alike), alike, 1e-12 * alike);
 }
 
 TEST_P(Frequency, TheStepSitsNearTheLimitOfTheNetworkAtAnyContrast) {
@@ -178,7 +178,7 @@ TEST_P(Frequency, TheStepSitsNearTheLimitOfTheNetworkAtAnyContrast) {
             StepControl control({});  // safety 0.8
             const double step = control.next(sim);
             EXPECT_LE(step, 0.8 * 1.005 * limit) << contrast << " " << k;
-            // What a sphere could do once it is caught between two others costs something.
+            // What a sphere could do once it is caged between two others costs something.
             EXPECT_GE(step, 0.5 * limit) << contrast << " " << k;
         }
 }
@@ -196,7 +196,7 @@ TEST_P(Frequency, AFewIterationsFromTheLastModeAreAsGoodAsManyFromScratch) {
         for (std::size_t i = 0; i < sim.size(); ++i)
             stiffness[i] =
                 sim.spheres().normal_stiffness[i] * (1 + 0.2 * random_vec(i, 99 + k).x());
-        sim.set_properties(stiffness, friction);
+        sim.change().set_properties(stiffness, friction);
         sim.compute_forces();
         const double ratio =
             estimator.estimate(sim, 1, 5) / FrequencyEstimator().estimate(sim, 8, 12);

@@ -49,7 +49,7 @@ TEST_P(FrictionLimit, OfTwoSpheresIsThatOfTheSmoother) {
         Simulation sim(std::move(scene), table());
         run_steps(sim, step, 1);
         sim.compute_forces();
-        const std::vector<TouchingContact> contacts = sim.touching();
+        const std::vector<TouchingContact> contacts = sim.contacts().touching();
         ASSERT_EQ(contacts.size(), 1u);
         const Vec3 normal = (sim.spheres().position[1] - sim.spheres().position[0]).normalized();
         const double pressed = -contacts[0].force.dot(normal);
@@ -66,7 +66,7 @@ TEST_P(FrictionLimit, OnAWallIsThatOfTheSmoother) {
             Simulation sim(std::move(scene), table());
             run_steps(sim, step, 1);
             sim.compute_forces();
-            const std::vector<TouchingContact> contacts = sim.touching();
+            const std::vector<TouchingContact> contacts = sim.contacts().touching();
             ASSERT_EQ(contacts.size(), 1u);
             const double pressed = contacts[0].force.dot(direction);
             EXPECT_NEAR(contacts[0].shear.norm(), std::min(0.7, wall) * pressed,
@@ -85,13 +85,13 @@ TEST_P(TurnedSpring, OnAWallTurnsByHalfTheSpinAboutTheNormal) {
     Simulation sim(std::move(scene), table());
     sim.compute_forces();
     const Vec3 shear = 4.0 * direction.unitOrthogonal();
-    ASSERT_TRUE(sim.restore_shear(0, -1, shear));
+    ASSERT_TRUE(sim.change().restore_shear(0, -1, shear));
     sim.compute_forces();
     sim.advance(step);
     sim.compute_forces();
     const Vec3 expected = Eigen::AngleAxisd(0.5 * angle, direction) * shear;
-    ASSERT_EQ(sim.touching_contacts(), 1);
-    EXPECT_LT((sim.touching()[0].shear - expected).norm(), 1e-3 * shear.norm());
+    ASSERT_EQ(sim.contacts().count(), 1);
+    EXPECT_LT((sim.contacts().touching()[0].shear - expected).norm(), 1e-3 * shear.norm());
 }
 
 /// Work of friction since the start [J].
@@ -111,19 +111,19 @@ TEST_P(GoneSpring, OfTwoSpheresIsDissipated) {
         Simulation sim(scene, table(), {.ledger = true});
         sim.compute_forces();
         const Vec3 shear = 4.0 * direction.unitOrthogonal();
-        ASSERT_TRUE(sim.restore_shear(0, 1, shear));
+        ASSERT_TRUE(sim.change().restore_shear(0, 1, shear));
         const double stored = 0.5 * shear.squaredNorm() / (scene.stiffness_ratio * kn);
         EXPECT_NEAR(slipped(sim), 0, roundoff(100) * stored);
-        EXPECT_NEAR(sim.contact_sums().elastic_shear, stored, roundoff(100) * stored);
+        EXPECT_NEAR(sim.contacts().sums().elastic_shear, stored, roundoff(100) * stored);
         // Pulled apart by twice the overlap in one step.
-        sim.add_velocities([&](std::size_t i, const Vec3&) -> Vec3 {
+        sim.change().add_velocities([&](std::size_t i, const Vec3&) -> Vec3 {
             return (i == 0 ? -1e-3 : 1e-3) * reach / step * direction;
         });
         const double before = slipped(sim);
         sim.advance(step);
-        if (rebuilt) sim.rebuild_lists();  // which find them apart
+        if (rebuilt) sim.change().rebuild_lists();  // which find them apart
         const double after = slipped(sim);
-        ASSERT_EQ(sim.touching_contacts(), 0);
+        ASSERT_EQ(sim.contacts().count(), 0);
         EXPECT_NEAR(after - before, stored, roundoff(100) * stored);
     }
 }
@@ -138,7 +138,7 @@ TEST_P(GoneSpring, OfTwoSpheresThatWereApartIsDissipatedAndForgotten) {
     Simulation sim(std::move(scene), table(), {.skin = 0.4 * test_radius, .ledger = true});
     sim.compute_forces();
     const auto turn_back = [&](double way) {
-        sim.add_velocities([&](std::size_t i, const Vec3&) -> Vec3 {
+        sim.change().add_velocities([&](std::size_t i, const Vec3&) -> Vec3 {
             return (i == 0 ? -0.5 : 0.5) * way / step * direction;
         });
     };
@@ -147,20 +147,20 @@ TEST_P(GoneSpring, OfTwoSpheresThatWereApartIsDissipatedAndForgotten) {
     for (double& energy : stored) {
         sim.advance(step);
         sim.compute_forces();
-        ASSERT_EQ(sim.touching_contacts(), 1);
-        energy = 0.5 * sim.touching()[0].shear.squaredNorm() / ks;
+        ASSERT_EQ(sim.contacts().count(), 1);
+        energy = 0.5 * sim.contacts().touching()[0].shear.squaredNorm() / ks;
         EXPECT_GT(energy, 0.0);
         const double before = slipped(sim);
         turn_back(2.4 * gap);
         sim.advance(step);
         const double after = slipped(sim);
-        ASSERT_EQ(sim.touching_contacts(), 0);
+        ASSERT_EQ(sim.contacts().count(), 0);
         EXPECT_NEAR(after - before, energy, roundoff(100) * energy);
         turn_back(-2.4 * gap);
     }
     // The second time some more, as the normal has turned; four times as much with the old spring.
     EXPECT_NEAR(stored[1], stored[0], 0.5 * stored[0]);
-    EXPECT_EQ(sim.list_builds(), 1);
+    EXPECT_EQ(sim.stats().list_builds(), 1);
 }
 
 TEST_P(GoneSpring, OnAWallIsDissipated) {
@@ -174,23 +174,23 @@ TEST_P(GoneSpring, OnAWallIsDissipated) {
         Simulation sim(std::move(scene), table(), {.ledger = true});
         sim.compute_forces();
         const Vec3 shear = 4.0 * direction.unitOrthogonal();
-        ASSERT_TRUE(sim.restore_shear(0, -1, shear));
+        ASSERT_TRUE(sim.change().restore_shear(0, -1, shear));
         const double stored = 0.5 * shear.squaredNorm() / ks;
         const double before = slipped(sim);
-        EXPECT_NEAR(sim.contact_sums().elastic_shear, stored, roundoff(100) * stored);
+        EXPECT_NEAR(sim.contacts().sums().elastic_shear, stored, roundoff(100) * stored);
         // The wall leaves by twice the overlap in one step, and is back in the next.
         sim.set_wall_velocity(0, -2e-3 * test_radius / step * direction);
         sim.advance(step);
-        if (rebuilt) sim.rebuild_lists();
+        if (rebuilt) sim.change().rebuild_lists();
         const double after = slipped(sim);
-        ASSERT_EQ(sim.touching_contacts(), 0);
+        ASSERT_EQ(sim.contacts().count(), 0);
         EXPECT_NEAR(after - before, stored, roundoff(100) * stored);
         sim.set_wall_velocity(0, 2e-3 * test_radius / step * direction);
         sim.advance(step);
         sim.compute_forces();
-        ASSERT_EQ(sim.touching_contacts(), 1);
+        ASSERT_EQ(sim.contacts().count(), 1);
         // In two steps the sphere has gone 1e-7 m, which stretches a spring by 1e-3 N.
-        EXPECT_LT(sim.touching()[0].shear.norm(), 1e-2 * shear.norm());
+        EXPECT_LT(sim.contacts().touching()[0].shear.norm(), 1e-2 * shear.norm());
     }
 }
 

@@ -188,7 +188,7 @@ TEST_P(FreeFall, DampedFallHasFourFifthsOfGravity) {
     sim.compute_forces();
     const double t = n * step;
     // Leapfrog is exact for a constant acceleration: n roundings of velocity and position.
-    EXPECT_NEAR(sim.on_step(0).velocity.y(), 0.8 * g.y() * t, roundoff(n) * 8);
+    EXPECT_NEAR(sim.sphere(0).on_step().velocity.y(), 0.8 * g.y() * t, roundoff(n) * 8);
     EXPECT_NEAR(sim.spheres().position.y[0], 2 + 0.4 * g.y() * t * t, roundoff(n) * 8);
     EXPECT_EQ(sim.spheres().position.x[0], 1.0);
     EXPECT_EQ(sim.spheres().velocity.z[0], 0.0);

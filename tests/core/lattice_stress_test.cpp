@@ -65,7 +65,7 @@ TEST_P(LatticeStress, SimpleCubicStressIsExactInAllNineComponents) {
                        GetParam().name, 0, (stress - expected).cwiseAbs().maxCoeff(),
                        roundoff(is_mixed() ? 10 : 1e5) * expected.norm());
         EXPECT_LT(sim.unbalanced_force_ratio(), roundoff(1e5));
-        EXPECT_EQ(sim.touching_contacts(), 3 * n * n * (n + 1));
+        EXPECT_EQ(sim.contacts().count(), 3 * n * n * (n + 1));
     }
 }
 
@@ -127,7 +127,7 @@ Eigen::Matrix3d fcc_stress_change(const kernels::KernelTable& table, double lamb
     const Eigen::Matrix3d before = stress();
     sim.advance(1.0);
     sim.compute_forces();
-    EXPECT_EQ(sim.touching_contacts(), 12 + 24);
+    EXPECT_EQ(sim.contacts().count(), 12 + 24);
     return stress() - before;
 }
 
@@ -175,7 +175,7 @@ TEST_P(LatticeStress, FabricOfASimpleCubicBlock) {
 
 TEST_P(LatticeStress, CornersOfAFreeBlockAreRattlers) {
     Simulation sim(cubic_block(4, Vec3::Constant(1e-3 * R), Eigen::Matrix3d::Identity()), table());
-    sim.set_walls({});
+    sim.change().set_walls({});
     sim.compute_forces();
     // 144 contacts; each of the 8 corners has three, spheres of the edges four.
     const Fabric fabric = measure_fabric(sim);

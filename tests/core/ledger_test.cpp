@@ -107,17 +107,17 @@ TEST_P(Ledger, FollowsVelocitiesAndMassesThatAreChanged) {
     const auto expect_closed = [&](const char* what) {
         EXPECT_NEAR(sim.energy().closing(), before.closing(), tolerance) << what;
     };
-    sim.scale_velocities(0.5);
+    sim.change().scale_velocities(0.5);
     expect_closed("slowed");
     EXPECT_GT(sim.energy().damping_work, before.damping_work + 0.5 * before.kinetic);
-    sim.add_velocities([](std::size_t, const Vec3& x) { return Vec3(-x.y(), 0.3, 0); });
+    sim.change().add_velocities([](std::size_t, const Vec3& x) { return Vec3(-x.y(), 0.3, 0); });
     expect_closed("given velocities");
     EXPECT_GT(sim.energy().external_work, before.external_work);
-    sim.set_inertia_scale(std::vector<double>(sim.size(), 3.0));
+    sim.change().set_inertia_scale(std::vector<double>(sim.size(), 3.0));
     expect_closed("made heavier");
     // Forces that are not current, as between two steps in one call each.
     sim.step(busy_step, [] {});
-    sim.scale_velocities(0.9);
+    sim.change().scale_velocities(0.9);
     sim.compute_forces(true);
     EXPECT_NEAR(sim.energy().closing(), before.closing(), 1e-3 * before.kinetic);
 }
@@ -191,7 +191,7 @@ TEST_P(Ledger, StepsOfChangingLengthKeepTheFallExact) {
         sim.compute_forces();
     }
     const double t = sim.time();
-    EXPECT_NEAR(sim.on_step(0).velocity.y(), -0.8 * 9.81 * t, roundoff(300) * 10);
+    EXPECT_NEAR(sim.sphere(0).on_step().velocity.y(), -0.8 * 9.81 * t, roundoff(300) * 10);
     EXPECT_NEAR(sim.spheres().position.y[0], -0.4 * 9.81 * t * t, roundoff(300) * 10);
 }
 

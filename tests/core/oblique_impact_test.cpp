@@ -26,7 +26,7 @@ void run_until_apart(Simulation& sim, double step) {
     const int limit = 100000;
     for (int k = 0; k < limit; ++k) {
         sim.compute_forces();
-        if (k > 1 && sim.touching_contacts() == 0) return;
+        if (k > 1 && sim.contacts().count() == 0) return;
         sim.advance(step);
     }
     FAIL() << "still touching";
@@ -127,7 +127,7 @@ double motion_energy(const Simulation& sim) {
     double sum = 0;
     for (std::size_t i = 0; i < sim.spheres().size(); ++i)
         sum += 0.5 * sim.spheres().mass[i] * sim.spheres().velocity[i].squaredNorm() +
-               0.5 * sim.spheres().spin[i].squaredNorm() / sim.inverse_inertia(i);
+               0.5 * sim.spheres().spin[i].squaredNorm() / sim.sphere(i).inverse_inertia();
     return sum;
 }
 

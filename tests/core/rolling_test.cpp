@@ -36,7 +36,7 @@ TEST_P(Sliding, TurnsToRollingAtFiveSeventhsOfTheSpeed) {
         const double step = 0.05 / omega;
         const auto motion = [&] {
             sim.compute_forces();
-            const kernels::OnStep now = sim.on_step(0);
+            const kernels::OnStep now = sim.sphere(0).on_step();
             return std::pair<Vec3, Vec3>(turn.transpose() * now.velocity,
                                          turn.transpose() * now.spin);
         };
@@ -81,12 +81,12 @@ double speed_after(const kernels::KernelTable& table, double mu, double theta, d
                    double time, const Eigen::Matrix3d& turn) {
     Simulation sim(resting_sphere(mu, theta, Vec3::Zero(), turn), table);
     sim.compute_forces();
-    EXPECT_TRUE(sim.restore_shear(0, -1, turn * Vec3(-shear, 0, 0)));
+    EXPECT_TRUE(sim.change().restore_shear(0, -1, turn * Vec3(-shear, 0, 0)));
     const double step = 0.1 / omega;
     const int n = static_cast<int>(time / step);
     run_steps(sim, step, n);
     sim.compute_forces();
-    return sim.on_step(0).velocity.dot(turn * Vec3::UnitX()) / sim.time();
+    return sim.sphere(0).on_step().velocity.dot(turn * Vec3::UnitX()) / sim.time();
 }
 
 TEST_P(Incline, RollsAtFiveSeventhsWhileFrictionHolds) {

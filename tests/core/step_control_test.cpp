@@ -69,7 +69,7 @@ TEST_P(StepChoice, FollowsNeighboursThatAreNewBetweenTwoEstimates) {
     // Closed forms of a few operations.
     const double before = 0.8 * 2 / std::sqrt(2 * by_sphere);
     EXPECT_NEAR(control.next(sim), before, 1e-12 * before);
-    sim.set_wall_point(0, Vec3(0, -2.9 * small, 0));
+    sim.change().set_wall_point(0, Vec3(0, -2.9 * small, 0));
     sim.compute_forces();
     ASSERT_FALSE(control.due(sim));
     const double after = 0.8 * 2 / std::sqrt(by_wall + by_sphere);
@@ -87,7 +87,8 @@ TEST_P(MassScaling, TakesNoMoreMassThanTheStepNeeds) {
         double real = 0, inertial = 0;
         std::size_t heavier = 0;
         for (std::size_t i = 0; i < sim.size(); ++i) {
-            const double mass = sim.spheres().mass[i], scaled = 1 / sim.inverse_inertial_mass(i);
+            const double mass = sim.spheres().mass[i],
+                         scaled = 1 / sim.sphere(i).inverse_inertial_mass();
             EXPECT_GE(scaled, mass * (1 - 1e-12)) << i;
             heavier += scaled > 1.01 * mass;
             real += mass;
@@ -98,7 +99,7 @@ TEST_P(MassScaling, TakesNoMoreMassThanTheStepNeeds) {
         if (spacing > 1) continue;
         // The margin grows by a tenth at a time, the frequency falls by its root.
         const double target = 2 * 0.8 / (3 * step);
-        const double omega = std::max(FrequencyEstimator().estimate(sim), caught_frequency(sim, 0));
+        const double omega = std::max(FrequencyEstimator().estimate(sim), caged_frequency(sim, 0));
         EXPECT_LE(omega, 1.01 * target);
         EXPECT_GE(omega, 0.94 * target);
     }
@@ -108,7 +109,7 @@ TEST_P(MassScaling, FollowsANetworkThatGetsFaster) {
     const auto harden = [](Simulation& sim) {
         std::vector<double> stiffness(sim.size(), test_stiffness);
         stiffness[21] *= 50;
-        sim.set_properties(stiffness, std::vector<double>(sim.size(), std::atan(0.5)));
+        sim.change().set_properties(stiffness, std::vector<double>(sim.size(), std::atan(0.5)));
         sim.compute_forces();
     };
     Simulation sim(cluster(0.8, 1.0), table());
@@ -146,11 +147,12 @@ TEST_P(InertiaScale, LeavesTheWeightAsItIs) {
     Scene scene = scene_of({Ball{}, Ball{.x = Vec3(1, 0, 0)}}, 0.5);
     scene.gravity = Vec3(0.5, -9.81, 2);
     Simulation sim(std::move(scene), table());
-    sim.set_inertia_scale(std::vector<double>{3.0, 1.0});
+    sim.change().set_inertia_scale(std::vector<double>{3.0, 1.0});
     const double m = sphere_mass(test_radius), step = 1e-3;
-    EXPECT_NEAR(sim.inverse_inertia(0) * 0.4 * 3 * m * test_radius * test_radius, 1, 1e-15 * 10);
+    EXPECT_NEAR(sim.sphere(0).inverse_inertia() * 0.4 * 3 * m * test_radius * test_radius, 1,
+                1e-15 * 10);
     sim.compute_forces();
-    EXPECT_LT((sim.resultant(0) - m * sim.scene().gravity).norm(), roundoff(10) * 10 * m);
+    EXPECT_LT((sim.sphere(0).resultant() - m * sim.scene().gravity).norm(), roundoff(10) * 10 * m);
     sim.advance(step);
     // Leapfrog from rest: the first half step.
     const Vec3 expected = 0.5 * step * sim.scene().gravity / 3;

@@ -36,7 +36,7 @@ using Watch = KernelTest;
 
 /// Adds a velocity to one sphere [m/s].
 void push(Simulation& sim, std::size_t sphere, const Vec3& velocity) {
-    sim.add_velocities(
+    sim.change().add_velocities(
         [&](std::size_t i, const Vec3&) { return i == sphere ? velocity : Vec3(Vec3::Zero()); });
 }
 
@@ -56,7 +56,7 @@ std::string failure(Scene scene, const kernels::KernelTable& table, const std::s
         EXPECT_NE(what.find("sphere " + sphere), std::string::npos) << what;
         reliability::record(
             "diagnoses",
-            {{"kernels", table.isa},
+            {{"kernels", kernels::name(table.isa)},
              {"steps", std::to_string(sim.steps() > 10 ? sim.steps() - 10 : sim.steps())},
              {"message", what}});
         return what;
@@ -123,9 +123,9 @@ TEST_P(Watch, UnstableStepIsNoticed) {
     TestMonitor monitor;
     Simulation sim(std::move(scene), table());
     const double omega = std::sqrt(test_radius * test_stiffness / sphere_mass(test_radius));
-    sim.set_walls(
+    sim.change().set_walls(
         box_walls({Vec3(-1, 0, -0.05), Vec3(3, 0.1, 0.05)}, plane(Vec3::Zero(), Vec3::UnitX())));
-    sim.set_gravity(Vec3(1, -9.81, 2));
+    sim.change().set_gravity(Vec3(1, -9.81, 2));
     Driver driver(sim, {.step = 4.0 / omega}, monitor);
     EXPECT_THROW(
         {
@@ -147,16 +147,16 @@ bool sound_at_overlap(const kernels::KernelTable& table, double radius, double o
                                                 .stiffness = 1e-9}});
     Simulation sim(std::move(scene), table);
     sim.compute_forces();
-    sim.check_state();
+    sim.health().check();
     for (int k = 0; k < 9; ++k) {
         sim.advance(step);
         sim.compute_forces();
-        sim.check_state();
+        sim.health().check();
     }
     sim.advance(step);  // half a step's way past `overlap`
     sim.compute_forces();
     try {
-        sim.check_state();
+        sim.health().check();
     } catch (const SimulationError&) {
         return false;
     }
@@ -178,11 +178,11 @@ TEST_P(Watch, SeesASphereHalfARadiusInAWall) {
     Simulation sim(std::move(scene), table());
     for (int k = 0; k < 6; ++k) {
         sim.compute_forces();
-        EXPECT_NO_THROW(sim.check_state()) << k;  // 0.49 of the radius in the wall at last
+        EXPECT_NO_THROW(sim.health().check()) << k;  // 0.49 of the radius in the wall at last
         sim.advance(step);
     }
     sim.compute_forces();
-    EXPECT_THROW(sim.check_state(), SimulationError);
+    EXPECT_THROW(sim.health().check(), SimulationError);
 }
 
 TEST_P(Watch, SeesAStepOfHalfARadius) {
@@ -195,13 +195,13 @@ TEST_P(Watch, SeesAStepOfHalfARadius) {
         // After k steps it moves (k - 1/2)/10 of a radius a step.
         sim.compute_forces();
         if (k > 0) {  // what is new is suspicious until it has been looked at
-            EXPECT_FALSE(sim.alarmed()) << k;
+            EXPECT_FALSE(sim.health().alarmed()) << k;
         }
-        EXPECT_NO_THROW(sim.check_state()) << k;
+        EXPECT_NO_THROW(sim.health().check()) << k;
         sim.advance(step);
     }
-    EXPECT_TRUE(sim.alarmed());
-    EXPECT_THROW(sim.check_state(), SimulationError);
+    EXPECT_TRUE(sim.health().alarmed());
+    EXPECT_THROW(sim.health().check(), SimulationError);
 }
 
 /// The message of check_start.

@@ -106,7 +106,7 @@ class VectorPair : public PairRunner {
                                   static_cast<T>(radius_),
                                   static_cast<T>(s.step),
                                   2 * record_stride<T>};
-        kernels_.pairs[variant(ContactFeatures{true, false, true})](
+        kernels_.pairs.compute({true, false, true})(
             records_.data(),
             {most_lanes, most_lanes, most_lanes - 1, a_.data(), b_.data(), separation_.data(),
              history_.data(), touching_.data(), scratch_.data()},

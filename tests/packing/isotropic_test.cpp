@@ -39,7 +39,7 @@ double mean_wall_stress(const core::Simulation& simulation) {
 double stiffness_sum_with_walls(const core::Simulation& simulation) {
     const double volume = core::box_dimensions(simulation).prod();
     double sum = core::stiffness_sum(simulation, volume);
-    for (const core::TouchingContact& contact : simulation.touching()) {
+    for (const core::TouchingContact& contact : simulation.contacts().touching()) {
         if (contact.j >= 0) continue;
         const auto i = static_cast<std::size_t>(contact.i);
         const core::Wall& wall = simulation.walls()[static_cast<std::size_t>(-1 - contact.j)];
@@ -100,10 +100,10 @@ TEST(Isotropic, RandomSampleReachesTheStressAndItsStiffnessIsBounded) {
         kernels::reference_kernels());
     core::Monitor monitor;
     core::Driver driver(simulation, {}, monitor);
-    simulation.set_friction_angle(0);  // makes it dense
+    simulation.change().set_friction_angle(0);  // makes it dense
     const IsotropicResult loose = compress_isotropically(driver, 1e6);
     EXPECT_GT(loose.steps, 0);
-    simulation.set_friction_angle(material.friction_angle);
+    simulation.change().set_friction_angle(material.friction_angle);
     const IsotropicResult result = compress_isotropically(driver, 1e6);
     EXPECT_LT(result.stress_error, 2e-3);
     EXPECT_LT(result.unbalanced_force_ratio, 1e-3);

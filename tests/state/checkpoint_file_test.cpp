@@ -11,7 +11,7 @@
 #include "core/base/errors.hpp"
 #include "core/files/file_info.hpp"
 #include "core/files/text_file.hpp"
-#include "core/state/part_of.hpp"
+#include "core/state/section_of.hpp"
 #include "tests/files/sample.hpp"
 #include "tests/reliability/record.hpp"
 
@@ -28,8 +28,8 @@ class CheckpointFile : public FilesTest {
     /// Makes a checkpoint of one number.
     void save(int number) {
         Checkpoint checkpoint(file(), R"({"what":"a number"})", 0);
-        const auto part =
-            part_of(&checkpoint, "number", [&](auto& archive) { archive(number, text_); });
+        const auto section =
+            section_of(&checkpoint, "number", [&](auto& archive) { archive(number, text_); });
         checkpoint.save();
     }
     /// The number of the checkpoint that is found.
@@ -42,9 +42,9 @@ class CheckpointFile : public FilesTest {
         checkpoint.resume(*found);
         int number = 0;
         std::string text;
-        const auto part =
-            part_of(&checkpoint, "number", [&](auto& archive) { archive(number, text); });
-        EXPECT_TRUE(part.resumed());
+        const auto section =
+            section_of(&checkpoint, "number", [&](auto& archive) { archive(number, text); });
+        EXPECT_TRUE(section.resumed());
         EXPECT_FALSE(checkpoint.resuming());
         EXPECT_EQ(text, text_);
         return number;
@@ -131,17 +131,17 @@ TEST_F(CheckpointFile, PartsAreNestedAndNamed) {
     const auto inner_state = [&](auto& archive) { archive(inner); };
     {
         Checkpoint checkpoint(file(), {}, 0);
-        const auto a = part_of(&checkpoint, "outer", outer_state);
-        { const auto gone = part_of(&checkpoint, "gone", inner_state); }
-        const auto b = part_of(&checkpoint, "inner", inner_state);
+        const auto a = section_of(&checkpoint, "outer", outer_state);
+        { const auto gone = section_of(&checkpoint, "gone", inner_state); }
+        const auto b = section_of(&checkpoint, "inner", inner_state);
         checkpoint.save();
     }
     outer = inner = 0;
     Checkpoint checkpoint(file(), {}, 0);
     checkpoint.resume(*find_checkpoint(file()));
-    const auto a = part_of(&checkpoint, "outer", outer_state);
+    const auto a = section_of(&checkpoint, "outer", outer_state);
     EXPECT_TRUE(a.resumed() && checkpoint.resuming());
-    EXPECT_THAT(message_of<FileError>([&] { part_of(&checkpoint, "else", inner_state); }),
+    EXPECT_THAT(message_of<FileError>([&] { section_of(&checkpoint, "else", inner_state); }),
                 HasSubstr("\"inner\" where that of \"else\" is expected"));
     EXPECT_EQ(outer, 1);
 }
@@ -149,10 +149,10 @@ TEST_F(CheckpointFile, PartsAreNestedAndNamed) {
 TEST_F(CheckpointFile, WhoHasNoPartLoadsNothing) {
     int number = 5;
     const auto state = [&](auto& archive) { archive(number); };
-    const auto none = part_of(nullptr, "number", state);
+    const auto none = section_of(nullptr, "number", state);
     EXPECT_FALSE(none.resumed());
     Checkpoint checkpoint(file(), {}, 0);
-    const auto fresh = part_of(&checkpoint, "number", state);
+    const auto fresh = section_of(&checkpoint, "number", state);
     EXPECT_FALSE(fresh.resumed());
     EXPECT_EQ(number, 5);
     checkpoint.save();

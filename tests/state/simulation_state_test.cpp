@@ -48,7 +48,7 @@ void go_on(Driver& driver, WallServo& servo, std::int64_t until) {
         driver.step(look, [&](double step) {
             sim.set_wall_velocity(0, Vec3(sim.steps() % 200 < 100 ? 0.8 : -0.8, 0, 0));
             servo.steer(sim, 1.0, step);
-            if (look && sim.steps() % 60 == 0) sim.scale_velocities(0.97);
+            if (look && sim.steps() % 60 == 0) sim.change().scale_velocities(0.97);
         });
     }
 }
@@ -85,7 +85,7 @@ TEST_P(SimulationState, GoesOnToTheSameBitsFromAnyStep) {
         Driven undisturbed(crowded_scene(), table(), ledger);
         go_on(undisturbed.driver, undisturbed.servo, total);
         const std::string hash = undisturbed.sim.state_hash();
-        EXPECT_GT(undisturbed.sim.list_builds(), 20);
+        EXPECT_GT(undisturbed.sim.stats().list_builds(), 20);
         undisturbed.sim.compute_forces(true);
         const double closing = undisturbed.sim.energy().closing();
 
@@ -114,9 +114,10 @@ TEST_P(SimulationState, GoesOnToTheSameBitsFromAnyStep) {
             const std::string same = reliability::same(second.sim.state_hash(), hash);
             second.sim.compute_forces(true);
             EXPECT_EQ(second.sim.time(), undisturbed.sim.time());
-            EXPECT_EQ(second.sim.list_builds(), undisturbed.sim.list_builds());
-            EXPECT_EQ(second.sim.neighbour_searches(), undisturbed.sim.neighbour_searches());
-            EXPECT_EQ(second.sim.neighbour_renewals(), undisturbed.sim.neighbour_renewals());
+            EXPECT_EQ(second.sim.stats().list_builds(), undisturbed.sim.stats().list_builds());
+            EXPECT_EQ(second.sim.stats().searches(), undisturbed.sim.stats().searches());
+            EXPECT_EQ(second.sim.stats().partial_rebuilds(),
+                      undisturbed.sim.stats().partial_rebuilds());
             EXPECT_EQ(second.sim.energy().closing(), closing);
             reliability::record("restarts", {{"of", "3,375 spheres between walls that close in"},
                                              {"kernels", GetParam().name},
@@ -138,7 +139,7 @@ TEST_P(SimulationState, KeepsContactsWithTheirShearForces) {
     other.load(file);
     run.sim.compute_forces(true);
     other.sim.compute_forces(true);
-    const auto ours = run.sim.touching(), theirs = other.sim.touching();
+    const auto ours = run.sim.contacts().touching(), theirs = other.sim.contacts().touching();
     ASSERT_EQ(ours.size(), theirs.size());
     ASSERT_GT(ours.size(), 200U);
     double shear = 0;

@@ -74,7 +74,7 @@ class Diagnosis : public kernels::KernelTest {
 };
 
 void add_velocity(core::Simulation& simulation, std::size_t sphere, const Vec3& velocity) {
-    simulation.add_velocities(
+    simulation.change().add_velocities(
         [&](std::size_t i, const Vec3&) { return i == sphere ? velocity : Vec3(Vec3::Zero()); });
 }
 
@@ -101,7 +101,7 @@ TEST_P(Diagnosis, OfAKineticEnergyThatExplodes) {
     spoilt_steps_ = 1000;
     for (const std::int64_t at : {60, 700}) {
         const std::string what = failure(at, [](core::Simulation& s) {
-            s.add_velocities([](std::size_t i, const Vec3&) {
+            s.change().add_velocities([](std::size_t i, const Vec3&) {
                 return Vec3(i % 2 == 0 ? 2.0 : -2.0, i % 3 == 0 ? 2.0 : -1.0, 0);
             });
         });

@@ -75,7 +75,7 @@ TEST(RunFiles, SummaryCurveAndStateOfATest) {
     EXPECT_EQ(nlohmann::json::parse(state.attributes)["state_hash"], run.simulation.state_hash());
     ASSERT_TRUE(state.extra.contains("contacts"));
     EXPECT_EQ(state.extra.at("contacts").shape[0],
-              static_cast<std::size_t>(run.simulation.touching_contacts()));
+              static_cast<std::size_t>(run.simulation.contacts().count()));
 }
 
 }  // namespace

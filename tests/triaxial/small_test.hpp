@@ -31,12 +31,12 @@ inline Sample dense_sample(int n, const std::array<std::int32_t, 3>& cells = {2,
         packing::testing::box_scene(
             std::move(spheres), {Vec3::Zero(), Vec3(1.15 * width, height, 1.15 * width)}, material),
         kernels::reference_kernels());
-    simulation.set_friction_angle(0);
+    simulation.change().set_friction_angle(0);
     core::Monitor monitor;
     core::Driver driver(simulation, {}, monitor);
     packing::compress_isotropically(driver, 20e3);
-    simulation.set_friction_angle(material.friction_angle);
-    simulation.scale_velocities(0);
+    simulation.change().set_friction_angle(material.friction_angle);
+    simulation.change().scale_velocities(0);
 
     Sample sample{simulation.spheres(), {}};
     for (int a = 0; a < 3; ++a) {

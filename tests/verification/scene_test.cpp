@@ -50,20 +50,19 @@ struct Folder {
 }  // namespace
 
 std::vector<SolverCase> solver_cases() {
-    using core::Isa, core::Precision;
-    std::vector<SolverCase> cases{{"reference", {Precision::double_, Isa::scalar}, true, 0x1p-52}};
-    const Isa isas[] = {Isa::scalar, Isa::avx2, Isa::avx512};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const kernels::InstructionSet set = kernels::instruction_sets[k];
+    using core::Precision, kernels::InstructionSet;
+    std::vector<SolverCase> cases{
+        {"reference", {Precision::double_, InstructionSet::scalar}, true, 0x1p-52}};
+    for (const InstructionSet set : kernels::instruction_sets) {
         const bool runs = kernels::runs_here(set);
         const std::string name = kernels::name(set);
-        if (isas[k] != Isa::scalar)
+        if (set != InstructionSet::scalar)
             cases.push_back({name + "_double",
-                             {Precision::double_, isas[k]},
+                             {Precision::double_, set},
                              runs && kernels::double_table(set) != nullptr,
                              0x1p-52});
         cases.push_back({name + "_mixed",
-                         {Precision::mixed, isas[k]},
+                         {Precision::mixed, set},
                          runs && kernels::mixed_table(set) != nullptr,
                          0x1p-23});
     }

@@ -58,7 +58,7 @@ nlohmann::json identity_of(const std::vector<CampaignCase>& cases,
     for (const CampaignCase& one : cases) {
         const kernels::KernelTable& kernels = core::choose_kernels(one.config.solver);
         json["cases"][one.name] = {
-            {"kernels", fmt::format("{}, {}", kernels.isa, kernels.precision)},
+            {"kernels", fmt::format("{}, {}", kernels::name(kernels.isa), kernels.precision)},
             {"config", case_text(one)}};
         const randomfield::FieldOptions& field = one.config.field;
         if (!field.data.empty() && field.variable != randomfield::Variable::none)

@@ -53,7 +53,9 @@ std::optional<core::FoundCheckpoint> CheckpointArguments::find(const std::filesy
 
 nlohmann::json run_identity(const std::string& command, const core::SolverOptions& solver) {
     const kernels::KernelTable& kernels = core::choose_kernels(solver);
-    return {{"command", command}, {"isa", kernels.isa}, {"precision", kernels.precision}};
+    return {{"command", command},
+            {"isa", kernels::name(kernels.isa)},
+            {"precision", kernels.precision}};
 }
 
 core::SolverOptions resumed_solver(const core::FoundCheckpoint& found, const std::string& command,
@@ -63,8 +65,7 @@ core::SolverOptions resumed_solver(const core::FoundCheckpoint& found, const std
         throw InputError(fmt::format("--resume: {} is a checkpoint of `{}`", found.file.string(),
                                      identity.at("command").get<std::string>()));
     // What "auto" meant where the run began.
-    if (solver.isa == core::Isa::automatic)
-        solver.isa = core::isa_of(identity.at("isa").get<std::string>());
+    if (!solver.isa) solver.isa = kernels::instruction_set(identity.at("isa").get<std::string>());
     return solver;
 }
 

@@ -14,7 +14,7 @@
 #include "core/files/json_text.hpp"
 #include "core/files/text_file.hpp"
 #include "core/kernel_choice.hpp"
-#include "core/state/part_of.hpp"
+#include "core/state/section_of.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/print_row.hpp"
 #include "triaxial/cli/resumable_run.hpp"
@@ -169,7 +169,8 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
     ResumableRun resumable(session.monitor, out / "state.h5", checkpoint);
 
     Before before;
-    const auto part = core::part_of(&checkpoint, "run", [&](auto& archive) { archive(before); });
+    const auto section =
+        core::section_of(&checkpoint, "run", [&](auto& archive) { archive(before); });
     core::Simulation simulation =
         resumable.run([&] { return begin_test(run, before, kernels, out, resumable, checkpoint); });
     const TestResult result =
@@ -195,8 +196,8 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
                   "{:.1f} s: packing {:.1f}, isotropic {:.1f}, shear {:.1f}; {:.3g} sphere-steps/s",
                   total, times.packing, result.isotropic_seconds, result.shear_seconds,
                   summary["particle_steps_per_second"].get<double>()));
-    print_row("solver",
-              fmt::format("{}, {}, {} threads", kernels.isa, kernels.precision, session.threads));
+    print_row("solver", fmt::format("{}, {}, {} threads", kernels::name(kernels.isa),
+                                    kernels.precision, session.threads));
     print_row("state hash", summary["state_hash"].get<std::string>());
     print_row("report", report.string());
 }

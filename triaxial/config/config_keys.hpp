@@ -2,6 +2,7 @@
 // Every key of a config (docs/interface.md, "Config keys"): path, range, unit, variable.
 
 #include <array>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -16,9 +17,11 @@ using Keys = std::vector<ConfigKey>;
 inline constexpr std::array precision_names{
     Named<core::Precision>{core::Precision::double_, "double"},
     Named<core::Precision>{core::Precision::mixed, "mixed"}};
-inline constexpr std::array isa_names{
-    Named<core::Isa>{core::Isa::automatic, "auto"}, Named<core::Isa>{core::Isa::scalar, "scalar"},
-    Named<core::Isa>{core::Isa::avx2, "avx2"}, Named<core::Isa>{core::Isa::avx512, "avx512"}};
+using NamedIsa = Named<std::optional<kernels::InstructionSet>>;
+inline constexpr std::array isa_names{NamedIsa{std::nullopt, "auto"},
+                                      NamedIsa{kernels::InstructionSet::scalar, "scalar"},
+                                      NamedIsa{kernels::InstructionSet::avx2, "avx2"},
+                                      NamedIsa{kernels::InstructionSet::avx512, "avx512"}};
 inline constexpr std::array variable_names{
     Named<randomfield::Variable>{randomfield::Variable::none, "none"},
     Named<randomfield::Variable>{randomfield::Variable::friction, "friction"},

@@ -97,8 +97,8 @@ nlohmann::json run_summary(const TestResult& r, const FieldRecord& field, const 
         {"particle_steps_per_second",
          static_cast<double>(particles) * static_cast<double>(steps) / stepping},
         {"state_hash", simulation.state_hash()},
-        {"isa", simulation.kernel_table().isa},
-        {"precision", simulation.kernel_table().precision},
+        {"isa", kernels::name(simulation.stats().kernel_table().isa)},
+        {"precision", simulation.stats().kernel_table().precision},
         {"threads", threads},
         {"version", GRAINFIELD_VERSION}};
     if (!r.energies.empty()) {
@@ -146,7 +146,7 @@ void write_state(const std::filesystem::path& path, const core::Simulation& simu
                                        {"state_hash", simulation.state_hash()}});
     // Touching contacts: i, j (or -1 - wall) and the shear force on i.
     core::ExtraArray contacts;
-    for (const core::TouchingContact& c : simulation.touching())
+    for (const core::TouchingContact& c : simulation.contacts().touching())
         for (double value : {double(c.i), double(c.j), c.shear.x(), c.shear.y(), c.shear.z()})
             contacts.values.push_back(value);
     contacts.shape = {contacts.values.size() / 5, 5};

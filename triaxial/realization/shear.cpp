@@ -7,7 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/drive/box.hpp"
-#include "core/state/part_of.hpp"
+#include "core/state/section_of.hpp"
 #include "packing/isotropic.hpp"
 
 namespace grainfield::triaxial {
@@ -49,7 +49,7 @@ void ShearStage::start_affine() {
     const Vec3 low(simulation.walls()[0].point.x(), simulation.walls()[2].point.y(),
                    simulation.walls()[4].point.z());
     const Vec3 middle = low + 0.5 * start_size_;
-    simulation.add_velocities([&](std::size_t, const Vec3& x) {
+    simulation.change().add_velocities([&](std::size_t, const Vec3& x) {
         return Vec3(lateral * (x.x() - middle.x()), -options_.strain_rate * (x.y() - low.y()),
                     lateral * (x.z() - middle.z()));
     });
@@ -107,7 +107,7 @@ bool ShearStage::record() {
     point.volumetric_strain = 1 - core::box_dimensions(simulation).prod() / start_size_.prod();
     point.unbalanced_force_ratio = simulation.unbalanced_force_ratio();
     point.time = time_;
-    point.contacts = simulation.contact_sums().contacts;
+    point.contacts = simulation.contacts().sums().contacts;
     curve_.push_back(point);
     if (point.axial_strain > settled_strain)
         for (int axis : {0, 2})
@@ -135,9 +135,9 @@ void ShearStage::archive_state(Archive& archive) {
 }
 
 void ShearStage::run() {
-    const auto part = core::part_of(driver_.checkpoint(), "shear",
-                                    [this](auto& archive) { archive_state(archive); });
-    if (!part.resumed()) start_affine();
+    const auto section = core::section_of(driver_.checkpoint(), "shear",
+                                          [this](auto& archive) { archive_state(archive); });
+    if (!section.resumed()) start_affine();
     driver_.limit_kinetic_energy(core::most_kinetic_energy(
         driver_.simulation(), options_.strain_rate, options_.confining_stress));
     for (bool ended = false; !ended;) {

@@ -8,7 +8,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/drive/box.hpp"
-#include "core/state/part_of.hpp"
+#include "core/state/section_of.hpp"
 #include "packing/isotropic.hpp"
 #include "triaxial/realization/shear.hpp"
 
@@ -52,7 +52,7 @@ core::Simulation make_simulation(Sample sample, const Config& config,
     if (contacts.empty()) return simulation;
     simulation.compute_forces();
     // One that just so touched may be apart by round-off: it carried next to nothing.
-    simulation.restore_shear(contacts);
+    simulation.change().restore_shear(contacts);
     return simulation;
 }
 
@@ -78,7 +78,7 @@ void compress(TestResult& result, core::Driver& driver, const Config& config, do
     if (simulation.keeps_ledger()) driver.log_energy();
     result.shear_began = simulation.time();
     result.sheared_porosity = 1 - solid / core::box_dimensions(simulation).prod();
-    result.contacts = simulation.touching_contacts();
+    result.contacts = simulation.contacts().count();
     result.fabric = core::measure_fabric(simulation);
 }
 
@@ -119,12 +119,12 @@ TestResult run_test(core::Simulation& simulation, const Config& config, core::Mo
     TestResult result;
     core::Stopwatch watch;
     bool compressed = false;
-    const auto part = core::part_of(checkpoint, "triaxial test", [&](auto& archive) {
+    const auto section = core::section_of(checkpoint, "triaxial test", [&](auto& archive) {
         archive(compressed, watch);
         archive_result(archive, result);
     });
     const double solid = simulation.spheres().solid_volume();
-    if (!part.resumed()) result.porosity = 1 - solid / core::box_dimensions(simulation).prod();
+    if (!section.resumed()) result.porosity = 1 - solid / core::box_dimensions(simulation).prod();
     if (simulation.keeps_ledger()) driver.log_energies_to(result.energies);
     if (!compressed) {
         compress(result, driver, config, solid);

@@ -7,7 +7,7 @@ namespace grainfield::triaxial {
 std::vector<ContactRow> contact_table(const core::Simulation& simulation) {
     const core::ParticleStore& s = simulation.spheres();
     std::vector<ContactRow> rows;
-    for (const auto& [i, j, shear, force] : simulation.touching()) {
+    for (const auto& [i, j, shear, force] : simulation.contacts().touching()) {
         double overlap = 0, k = 0;
         if (j >= 0) {
             const double reach = s.radius[i] + s.radius[j];

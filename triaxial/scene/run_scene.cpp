@@ -8,7 +8,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/drive/driver.hpp"
 #include "core/kernel_choice.hpp"
-#include "core/state/part_of.hpp"
+#include "core/state/section_of.hpp"
 #include "triaxial/scene/scene_output.hpp"
 #include "triaxial/scene/scene_setup.hpp"
 
@@ -40,7 +40,7 @@ class SceneRun {
           monitor_(monitor),
           driver_(simulation, {file.step, file.safety, file.mass_scaling}, monitor, checkpoint),
           servos_(set_up_servos(file, simulation.scene(), source)),
-          part_(
+          section_(
               checkpoint, "scene",
               [this](core::StateWriter& archive) {
                   archive_state(archive);
@@ -68,13 +68,14 @@ class SceneRun {
             for (ServoWall& s : servos_)
                 s.servo.steer(simulation_, s.area(simulation_.walls()), step);
             simulation_.advance(step);
-            if (simulation_.steps() % core::Driver::watch_interval == 0 || simulation_.alarmed())
+            if (simulation_.steps() % core::Driver::watch_interval == 0 ||
+                simulation_.health().alarmed())
                 driver_.watch();
             if (reported_.seconds() > report_interval) report();
         }
         report();
         simulation_.compute_forces(true);
-        simulation_.check_state();
+        simulation_.health().check();
         output_.add(simulation_, time());
     }
 
@@ -105,7 +106,7 @@ class SceneRun {
         reported_.lap();
         monitor_.progress(
             time() / file_.end, simulation_.steps(),
-            fmt::format("t {:.4g} s, {} contacts", time(), simulation_.touching_contacts()));
+            fmt::format("t {:.4g} s, {} contacts", time(), simulation_.contacts().count()));
     }
 
     const SceneFile& file_;
@@ -117,7 +118,7 @@ class SceneRun {
     std::vector<ServoWall> servos_;
     double next_output_ = 0;  // in units of the interval [-]
     core::Stopwatch reported_, watch_;
-    core::Checkpoint::Part part_;  // last: it loads what stands above
+    core::Checkpoint::Section section_;  // last: it loads what stands above
 };
 
 }  // namespace
@@ -147,7 +148,7 @@ SceneSummary run_scene(const SceneFile& file, const std::filesystem::path& sourc
     SceneSummary summary;
     summary.particles = simulation.spheres().size();
     summary.walls = simulation.walls().size();
-    summary.contacts = simulation.touching_contacts();
+    summary.contacts = simulation.contacts().count();
     summary.steps = simulation.steps();
     summary.time = run.time();
     summary.time_step = file.step ? *file.step : summary.time / double(summary.steps);
@@ -156,7 +157,7 @@ SceneSummary run_scene(const SceneFile& file, const std::filesystem::path& sourc
     summary.particle_steps_per_second =
         double(summary.particles) * double(summary.steps) / summary.wall_seconds;
     summary.state_hash = simulation.state_hash();
-    summary.isa = kernels.isa;
+    summary.isa = kernels::name(kernels.isa);
     summary.precision = kernels.precision;
     summary.threads = threads;
     output.finish(simulation, summary);

@@ -77,7 +77,7 @@ void SceneOutput::load(core::StateReader& archive) {
 void SceneOutput::add(const core::Simulation& simulation, double time) {
     const core::Vec3Column& position = simulation.spheres().position;
     for (std::size_t i = 0; i < position.size(); ++i) {
-        const kernels::OnStep motion = simulation.on_step(i);
+        const kernels::OnStep motion = simulation.sphere(i).on_step();
         trajectory_->add(time);
         trajectory_->add(static_cast<std::int64_t>(i));
         for (const Vec3& v : {position[i], motion.velocity, motion.spin})

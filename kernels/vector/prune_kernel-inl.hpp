@@ -1,10 +1,11 @@
-// Separations of neighbours, and which of them are candidates.
+// Prunes the outer Verlet list to the inner one: separations of its pairs, and which are
+// candidates.
 
-#if defined(GRAINFIELD_LIST_KERNEL_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef GRAINFIELD_LIST_KERNEL_INL
-#undef GRAINFIELD_LIST_KERNEL_INL
+#if defined(GRAINFIELD_PRUNE_KERNEL_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINFIELD_PRUNE_KERNEL_INL
+#undef GRAINFIELD_PRUNE_KERNEL_INL
 #else
-#define GRAINFIELD_LIST_KERNEL_INL
+#define GRAINFIELD_PRUNE_KERNEL_INL
 #endif
 
 #include "kernels/vector/blocks-inl.hpp"
@@ -13,17 +14,18 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainfield::kernels::HWY_NAMESPACE {
 
-/// In double whatever T: what is kept in T is the result alone.
+/// Computes in double for every T, because a separation is a difference of nearly equal numbers.
+/// Only the result is rounded to T.
 template <class T>
-void place_neighbours(const BuiltPlace* places, const Neighbours<T>& list) {
+void prune(const BuiltPlace* places, const OuterPairs<T>& list) {
     using D = double;
     constexpr std::size_t n = lanes<D>;
     const Tag<D> d;
-    const auto zero = hn::Zero(d), last = set<D>(stretches);
+    const auto zero = hn::Zero(d), last = set<D>(distance_bins);
     // A little earlier than need be: round-off must not make a pair come too late.
-    const auto early = set<D>(1 - 1e-5), rest = set<D>(stretches - 1);
-    const auto first = set<D>(first_stretch), one = set<D>(1);
-    // b - a of the centres, a + b of radii and reserves.
+    const auto early = set<D>(1 - 1e-5), rest = set<D>(distance_bins - 1);
+    const auto first = set<D>(first_bin), one = set<D>(1);
+    // b - a of the centres, a + b of radii and buffers.
     alignas(64) D signs[8] = {-1, -1, -1, 1, 1, 1, 1, 1};
     for (std::size_t k = 0; k < list.size; k += n) {
         std::array<Lane<D>, 8> column;
@@ -46,13 +48,12 @@ void place_neighbours(const BuiltPlace* places, const Neighbours<T>& list) {
         keep(1, branch.y);
         keep(2, branch.z);
         keep(gap_component, gap);
-        // Rounded down; pairs that overlap already belong to the first stretch.
+        // Rounded down; pairs that overlap already belong to the first bin.
         const auto share = hn::Mul(early, hn::Div(hn::Neg(gap), column[4]));
         const auto later = hn::Min(last, hn::MulAdd(rest, share, one));
         alignas(64) D used[n];
         hn::Store(hn::IfThenElse(hn::Lt(share, first), zero, later), d, used);
-        for (std::size_t l = 0; l < n; ++l)
-            list.stretch[k + l] = static_cast<std::uint8_t>(used[l]);
+        for (std::size_t l = 0; l < n; ++l) list.bin[k + l] = static_cast<std::uint8_t>(used[l]);
     }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A part of a checkpoint from one function that lists its state, for both directions.
+// A section of a checkpoint from one function that lists its state, for both directions.
 
 #include <cereal/archives/binary.hpp>
 #include <cereal/types/optional.hpp>
@@ -13,10 +13,11 @@
 namespace grainfield::core {
 
 /// state(archive) lists references to all that the level carries:
-///     const auto part = core::part_of(checkpoint, "settling", [&](auto& a) { a(steps, ratio); });
+///     const auto section = core::section_of(checkpoint, "settling", [&](auto& a) { a(steps,
+///     ratio); });
 template <class State>
-Checkpoint::Part part_of(Checkpoint* checkpoint, std::string_view name, State state) {
-    return Checkpoint::Part(
+Checkpoint::Section section_of(Checkpoint* checkpoint, std::string_view name, State state) {
+    return Checkpoint::Section(
         checkpoint, name, [state](StateWriter& archive) { state(archive); },
         [state](StateReader& archive) { state(archive); });
 }

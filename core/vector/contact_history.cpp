@@ -1,4 +1,4 @@
-// The contacts of the vector engine as others see them. Part of vector_engine.cpp.
+#include "core/vector/contact_history.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,22 +10,29 @@
 namespace grainfield::core {
 namespace {
 
+/// Contacts of a list that touch, those across a border in one of the two domains.
 template <class T>
-std::int64_t count_touching(const CandidateList<T>& list, std::size_t own) {
+std::int64_t count_touching(const CandidateList<T>& list, const Domain<T>& domain) {
     std::int64_t count = 0;
     for (std::size_t k = 0; k < list.count(); ++k)
-        count += list.touches(k) && static_cast<std::size_t>(list.first(k)) < own;
+        count += list.touches(k) && domain.owns_record(list.first(k));
     return count;
 }
 
 }  // namespace
 
 template <class T>
-TouchingContact VectorEngine<T>::pair_contact(const Domain<T>& domain, std::size_t k) const {
-    const CandidateList<T>& list = domain.pairs;
+Vec3 ContactHistory<T>::present_position(std::size_t slot) const {
+    return lists_.built().position[slot] + vec3(sample_.record(slot).u);
+}
+
+template <class T>
+TouchingContact ContactHistory<T>::pair_contact(std::size_t d, std::size_t k) const {
+    const Domain<T>& domain = sample_.domains[d];
+    const CandidateList<T>& list = lists_.of(d).inner;
     const auto slot_a = static_cast<std::size_t>(domain.slot(list.first(k)));
     const auto slot_b = static_cast<std::size_t>(domain.slot(list.second(k)));
-    const std::int32_t i = order_.sphere[slot_a], j = order_.sphere[slot_b];
+    const std::int32_t i = sample_.order.sphere[slot_a], j = sample_.order.sphere[slot_b];
     const ParticleStore& s = world_.spheres();
     const Vec3 branch = present_position(slot_b) - present_position(slot_a);
     const double distance = branch.norm(), reach = s.radius[i] + s.radius[j];
@@ -38,10 +45,10 @@ TouchingContact VectorEngine<T>::pair_contact(const Domain<T>& domain, std::size
 }
 
 template <class T>
-TouchingContact VectorEngine<T>::wall_contact(const Domain<T>& domain, const WallList<T>& walls,
-                                              std::size_t k) const {
+TouchingContact ContactHistory<T>::wall_contact(const Domain<T>& domain, const WallList<T>& walls,
+                                                std::size_t k) const {
     const auto slot = static_cast<std::size_t>(domain.slot(walls.list.first(k)));
-    const std::int32_t i = order_.sphere[slot];
+    const std::int32_t i = sample_.order.sphere[slot];
     const ParticleStore& s = world_.spheres();
     const Wall& wall = world_.scene.walls[static_cast<std::size_t>(walls.wall)];
     const double overlap = s.radius[i] - wall.normal.dot(present_position(slot) - wall.point);
@@ -52,14 +59,15 @@ TouchingContact VectorEngine<T>::wall_contact(const Domain<T>& domain, const Wal
 }
 
 template <class T>
-std::vector<TouchingContact> VectorEngine<T>::touching() const {
+std::vector<TouchingContact> ContactHistory<T>::touching() const {
     std::vector<TouchingContact> pairs, walls;
-    for (const Domain<T>& domain : domains_) {
-        for (std::size_t k = 0; k < domain.pairs.count(); ++k)
-            if (domain.pairs.touches(k) &&
-                static_cast<std::size_t>(domain.pairs.first(k)) < domain.own)
-                pairs.push_back(pair_contact(domain, k));
-        for (const WallList<T>& list : domain.walls)
+    for (std::size_t d = 0; d < sample_.size(); ++d) {
+        const Domain<T>& domain = sample_.domains[d];
+        const CandidateList<T>& inner = lists_.of(d).inner;
+        for (std::size_t k = 0; k < inner.count(); ++k)
+            if (inner.touches(k) && domain.owns_record(inner.first(k)))
+                pairs.push_back(pair_contact(d, k));
+        for (const WallList<T>& list : lists_.of(d).walls)
             for (std::size_t k = 0; k < list.list.count(); ++k)
                 if (list.list.touches(k)) walls.push_back(wall_contact(domain, list, k));
     }
@@ -74,64 +82,30 @@ std::vector<TouchingContact> VectorEngine<T>::touching() const {
 }
 
 template <class T>
-std::int64_t VectorEngine<T>::touching_count() const {
+std::int64_t ContactHistory<T>::touching_count() const {
     std::int64_t count = 0;
-    for (const Domain<T>& domain : domains_) {
-        count += count_touching(domain.pairs, domain.own);
-        for (const WallList<T>& list : domain.walls) count += count_touching(list.list, domain.own);
-    }
+    for (std::size_t d = 0; d < sample_.size(); ++d)
+        count += count_touching(lists_.of(d).inner, sample_.domains[d]) + wall_count(d);
     return count;
 }
 
 template <class T>
-std::int64_t VectorEngine<T>::candidate_count() const {
-    std::size_t count = 0;
-    for (const Domain<T>& domain : domains_) {
-        count += domain.pairs.count();
-        for (const WallList<T>& list : domain.walls) count += list.list.count();
-    }
-    return static_cast<std::int64_t>(count);
+std::int64_t ContactHistory<T>::wall_count(std::size_t d) const {
+    std::int64_t count = 0;
+    for (const WallList<T>& walls : lists_.of(d).walls)
+        count += count_touching(walls.list, sample_.domains[d]);
+    return count;
 }
 
 template <class T>
-StepCost VectorEngine<T>::step_cost() const {
-    constexpr double record = sizeof(kernels::SphereRecord<T>);
-    constexpr double history = kernels::history_size * sizeof(T);
-    constexpr double candidate = 2 * sizeof(std::int32_t) + kernels::separation_size * sizeof(T);
-    const double bodies =
-        3 * sizeof(double) +
-        (world_.motion_features().gravity ? body_columns : weightless_columns) * sizeof(T);
-    StepCost cost;
-    for (const Domain<T>& domain : domains_) {
-        const auto own = static_cast<double>(domain.own);
-        const auto ghosts = static_cast<double>(domain.ghost_slots.size());
-        const auto in_play = static_cast<double>(domain.pairs.begin[stretch_of(most_used_) + 1u]);
-        const auto close = static_cast<double>(domain.pairs.begin[1]);
-        cost.bytes += own * (2 * record + bodies) +
-                      ghosts * 3 * record +  // read at home, written, read
-                      in_play * candidate + close * 2 * history;
-        cost.evaluated += domain.pass.contacts;
-        for (const WallList<T>& walls : domain.walls)
-            cost.evaluated += count_touching(walls.list, domain.own);
+void ContactHistory<T>::clear_shear() {
+    for (std::size_t d = 0; d < sample_.size(); ++d) {
+        DomainLists<T>& lists = lists_.of(d);
+        std::fill(lists.inner.history.begin(), lists.inner.history.end(), T(0));
+        for (WallList<T>& walls : lists.walls)
+            std::fill(walls.list.history.begin(), walls.list.history.end(), T(0));
     }
-    return cost;
 }
-
-template <class T>
-std::vector<kernels::Pair> VectorEngine<T>::neighbours() const {
-    std::vector<kernels::Pair> pairs;
-    for (const Domain<T>& domain : domains_)
-        domain.for_neighbours([&](std::int32_t a, std::int32_t b) {
-            // Those across a border stand in both domains.
-            if (static_cast<std::size_t>(a) >= domain.own) return;
-            const auto i = order_.sphere[static_cast<std::size_t>(domain.slot(a))];
-            const auto j = order_.sphere[static_cast<std::size_t>(domain.slot(b))];
-            pairs.push_back({std::min(i, j), std::max(i, j)});
-        });
-    return pairs;
-}
-
-namespace {
 
 /// Candidates of a list by their records.
 template <class T>
@@ -159,29 +133,28 @@ class CandidateIndex {
     std::vector<Entry> sorted_;
 };
 
-}  // namespace
-
 template <class T>
-std::size_t VectorEngine<T>::restore(std::span<const ContactShear> contacts) {
+std::size_t ContactHistory<T>::restore(std::span<const ContactShear> contacts) {
     std::vector<std::int32_t> slot_of(world_.size());
     for (std::size_t slot = 0; slot < slot_of.size(); ++slot)
-        slot_of[static_cast<std::size_t>(order_.sphere[slot])] = static_cast<std::int32_t>(slot);
+        slot_of[static_cast<std::size_t>(sample_.order.sphere[slot])] =
+            static_cast<std::int32_t>(slot);
     std::vector<CandidateIndex<T>> pairs;
-    std::vector<std::vector<CandidateIndex<T>>> walls(domains_.size());
-    for (std::size_t d = 0; d < domains_.size(); ++d) {
-        pairs.emplace_back(domains_[d].pairs);
-        for (WallList<T>& wall : domains_[d].walls) walls[d].emplace_back(wall.list);
+    std::vector<std::vector<CandidateIndex<T>>> walls(sample_.size());
+    for (std::size_t d = 0; d < sample_.size(); ++d) {
+        pairs.emplace_back(lists_.of(d).inner);
+        for (WallList<T>& wall : lists_.of(d).walls) walls[d].emplace_back(wall.list);
     }
     const auto set_wall = [&](std::int32_t slot, std::int32_t wall, const Vec3& shear) {
-        const std::size_t d = domain_of(slot);
-        const std::int32_t record = domains_[d].record(slot);
+        const std::size_t d = sample_.order.domain_of(slot);
+        const std::int32_t record = sample_.domains[d].record(slot);
         for (std::size_t w = 0; w < walls[d].size(); ++w)
-            if (domains_[d].walls[w].wall == wall) return walls[d][w].set(record, record, shear);
+            if (lists_.of(d).walls[w].wall == wall) return walls[d][w].set(record, record, shear);
         return false;
     };
     const auto set_pair = [&](std::size_t d, std::int32_t low, std::int32_t high,
                               const Vec3& shear) {
-        const Domain<T>& domain = domains_[d];
+        const Domain<T>& domain = sample_.domains[d];
         return domain.knows(low) && domain.knows(high) &&
                pairs[d].set(domain.record(low), domain.record(high), shear);
     };
@@ -196,10 +169,13 @@ std::size_t VectorEngine<T>::restore(std::span<const ContactShear> contacts) {
         const auto [low, high] = std::minmax({slot_i, slot_j});
         const Vec3 on_low = slot_i < slot_j ? shear : Vec3(-shear);
         // A contact across a border stands in both domains.
-        const bool in_one = set_pair(domain_of(low), low, high, on_low);
-        found += set_pair(domain_of(high), low, high, on_low) || in_one;
+        const bool in_one = set_pair(sample_.order.domain_of(low), low, high, on_low);
+        found += set_pair(sample_.order.domain_of(high), low, high, on_low) || in_one;
     }
     return found;
 }
+
+template class ContactHistory<float>;
+template class ContactHistory<double>;
 
 }  // namespace grainfield::core
