@@ -215,10 +215,7 @@ void run(const Arguments& arguments) {
     }
     core::write_file_atomically(folder / "accuracy.csv", bench::cases_csv(all));
     core::write_file_atomically(folder / "accuracy_noise.csv", bench::noise_csv(ensembles));
-    const triaxial::report::Gnuplot gnuplot;
-    core::write_file_atomically(folder / "accuracy.png",
-                                gnuplot.png("accuracy", bench::accuracy_picture_size,
-                                            bench::accuracy_script(gnuplot, panels)));
+    core::write_file_atomically(folder / "accuracy.png", bench::accuracy_picture(panels));
     fmt::print("written to {}\n", folder.string());
 }
 

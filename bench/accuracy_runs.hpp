@@ -62,9 +62,9 @@ struct Task {
     Run run;  ///< filled by make_runs()
 };
 
-/// The series "uniform", the paper's case with k_n the same everywhere, and "contrast", k_n of each
-/// block lognormal with COV 2. Shear ends at `last_strain` [-]. The packing is read from `packing`,
-/// or made and left there.
+/// The series "uniform", Tran et al.'s case with k_n the same everywhere, and "contrast", k_n of
+/// each block lognormal with COV 2. Shear ends at `last_strain` [-]. The packing is read from
+/// `packing`, or made and left there.
 std::vector<Series> make_series(const std::filesystem::path& packing, double last_strain,
                                 core::Monitor& monitor);
 

@@ -159,6 +159,9 @@ std::string csv(const std::vector<bench::FieldPoint>& points) {
 std::string table(const std::vector<bench::FieldPoint>& points) {
     std::string text =
         "# Random fields of the paper\n\n"
+        "The paper is *An Algorithm for the Propagation of Uncertainty in Soils using the Discrete "
+        "Element Method* (Tran, Meguid, Chouinard); its equations stand in "
+        "[docs/method.md](../../docs/method.md).\n\n"
         "Local averages over blocks of 0.25 m, theta_x = theta_z = 10 theta_y, Markov correlation. "
         "gamma is the variance of a block, rho the correlation with the next block. Errors are the "
         "largest of all covariances, in units of gamma, from at most 54 cells of stage 0 to "

@@ -60,13 +60,10 @@ core::Simulation still_network(core::Scene scene, double contrast);
 /// walls; no sphere moves (stability_rest.cpp).
 core::Simulation settled(const core::Scene& scene);
 
-/// A gnuplot script with the house's colours for {ink}, {muted}, {main}, {contrast}, {soft}; other
-/// braces stand doubled.
-std::string coloured(std::string_view script);
-
-/// A CSV and the picture of a gnuplot script as stability_NAME.csv and .png in the run's folder.
+/// A CSV and the picture of bench/NAME.gnuplot with these variables as NAME.csv and .png in the
+/// run's folder.
 void write_results(const StabilityRun& run, std::string_view name, std::string_view csv,
-                   const triaxial::report::Gnuplot& gnuplot, triaxial::report::PictureSize size,
-                   std::string_view script);
+                   triaxial::report::PictureSize size,
+                   const triaxial::report::GnuplotVariables& variables);
 
 }  // namespace grainfield::bench

@@ -17,34 +17,15 @@ constexpr const char* header =
     "friction_angle_rad,damping,safety,step_s,finite,time_s,steps,elastic_energy_at_start_J,"
     "kinetic_over_start,ledger_error_over_start\n";
 
-constexpr const char* picture = R"(
-set lmargin at screen 0.13
-set rmargin at screen 0.97
-set tmargin at screen 0.96
-set bmargin at screen 0.16
-set logscale y
-set format y '10^{{%T}}'
-set xrange [0.05:0.85]
-set yrange [1e-5:1e4]
-set xtics 0.1,0.1
-set xlabel 'Step over the limit 2/ω_{{max}} (-)'
-set ylabel 'Ledger error over the energy at the start (-)'
-set key top left Left reverse
-plot '0-0.dat' using 1:2 with linespoints pt 7 ps 1.5 lw 2 lc rgb '{contrast}' title 'no friction, undamped', \
-     '0.6-0.dat' using 1:2 with linespoints pt 6 ps 1.5 lw 2 lc rgb '{contrast}' title 'friction, undamped', \
-     '0-0.2.dat' using 1:2 with linespoints pt 5 ps 1.3 lw 2 lc rgb '{main}' title 'no friction, damping 0.2', \
-     '0.6-0.2.dat' using 1:2 with linespoints pt 4 ps 1.3 lw 2 lc rgb '{main}' title 'friction, damping 0.2'
-)";
-
 }  // namespace
 
 void collisions(const StabilityRun& run) {
     const double time = run.quick ? 0.02 : 0.4;  // [s]
-    const triaxial::report::Gnuplot gnuplot;
     std::string csv = header;
+    triaxial::report::DataBlock gains;
     for (const double friction : {0.0, run.small.spheres.friction_angle[0]})
         for (const double damping : {0.0, run.small.damping.force}) {
-            std::string points;
+            gains.begin_part(fmt::format("{}-{}", friction, damping));
             for (const double safety : {0.1, 0.2, 0.4, 0.6, 0.8}) {
                 core::Scene scene = run.small;
                 scene.damping = {damping, damping};
@@ -70,15 +51,14 @@ void collisions(const StabilityRun& run) {
                 csv += fmt::format("{},{},{},{:.5g},{},{:.4g},{},{:.4g},{:.4g},{:.4g}\n", friction,
                                    damping, safety, step, finite, simulation.time(),
                                    simulation.steps(), start.elastic_normal, kinetic, gain);
-                points += fmt::format("{} {}\n", safety, std::abs(gain));
+                gains.row(safety, std::abs(gain));
                 say(
                     fmt::format("collisions: friction {}, damping {}, safety {}: kinetic {:.3g}, "
                                 "ledger {:+.2g} of the start",
                                 friction, damping, safety, kinetic, gain));
             }
-            gnuplot.data(fmt::format("{}-{}.dat", friction, damping), points);
         }
-    write_results(run, "collisions", csv, gnuplot, {900, 620}, coloured(picture));
+    write_results(run, "stability_collisions", csv, {900, 620}, {{"gains", gains}});
 }
 
 }  // namespace grainfield::bench

@@ -75,48 +75,15 @@ constexpr const char* header =
     "overlap_percent,precision,isa,safety,finite,steps,first_step_s,elastic_energy_J,"
     "ledger_error_J,ledger_error_over_elastic,largest_speed_m_per_s,kinetic_left_over_elastic\n";
 
-constexpr const char* picture = R"(
-set multiplot
-set logscale xy
-set format y '10^{{%T}}'
-set xrange [0.08:6.5]
-set xtics ('0.1' 0.1, '0.2' 0.2, '0.5' 0.5, '1' 1, '2' 2, '5' 5)
-set xlabel 'Overlap at the start (% of the radius)'
-set tmargin at screen 0.95
-set bmargin at screen 0.15
-
-set lmargin at screen 0.085
-set rmargin at screen 0.475
-set yrange [1e-4:100]
-set ylabel 'Ledger error over elastic energy (-)' offset 0.5,0
-set key top right Left reverse
-plot 'reference-0.8.dat' using 1:2 with linespoints pt 6 ps 2.4 lw 2 lc rgb '{soft}' title 'reference, safety 0.8', \
-     'double-0.8.dat' using 1:2 with linespoints pt 7 ps 1.2 lw 1.5 lc rgb '{main}' title 'double', \
-     'mixed-0.8.dat' using 1:2 with linespoints pt 5 ps 0.9 lw 1.5 dt 2 lc rgb '{contrast}' title 'mixed', \
-     'reference-0.2.dat' using 1:2 with linespoints pt 8 ps 2.4 lw 2 lc rgb '{soft}' title 'reference, safety 0.2', \
-     'double-0.2.dat' using 1:2 with linespoints pt 9 ps 1.2 lw 1.5 lc rgb '{main}' title 'double', \
-     'mixed-0.2.dat' using 1:2 with linespoints pt 13 ps 0.9 lw 1.5 dt 2 lc rgb '{contrast}' title 'mixed'
-
-set lmargin at screen 0.585
-set rmargin at screen 0.975
-set yrange [1:1000]
-set ylabel 'Largest speed of a sphere (m/s)'
-set key top left
-plot 'reference-0.8.dat' using 1:3 with linespoints pt 6 ps 2.4 lw 2 lc rgb '{soft}' title 'reference', \
-     'double-0.8.dat' using 1:3 with linespoints pt 7 ps 1.2 lw 1.5 lc rgb '{main}' title 'double', \
-     'mixed-0.8.dat' using 1:3 with linespoints pt 5 ps 0.9 lw 1.5 dt 2 lc rgb '{contrast}' title 'mixed'
-unset multiplot
-)";
-
 }  // namespace
 
 void start_overlaps(const StabilityRun& run) {
     const double time = run.quick ? 0.01 : 0.1;  // [s]: the burst itself takes a tenth of it
-    const triaxial::report::Gnuplot gnuplot;
     std::string csv = header;
+    triaxial::report::DataBlock bursts;
     for (const NamedKernels& kernels : compared_kernels())
         for (const double safety : {0.8, 0.2}) {
-            std::string points;
+            bursts.begin_part(fmt::format("{}-{}", kernels.name, safety));
             for (const double percent : {0.1, 0.5, 1.0, 2.0, 5.0}) {
                 const core::Scene scene = inflated(run.small, 0.01 * percent);
                 const Burst b = burst(scene, *kernels.table, safety, time);
@@ -124,12 +91,11 @@ void start_overlaps(const StabilityRun& run) {
                                    percent, kernels.name, kernels.table->isa, safety, b.finite,
                                    b.steps, b.step, b.elastic, b.closing, b.closing / b.elastic,
                                    b.speed, b.kinetic_left / b.elastic);
-                points += fmt::format("{} {} {}\n", percent, b.closing / b.elastic, b.speed);
+                bursts.row(percent, b.closing / b.elastic, b.speed);
             }
-            gnuplot.data(fmt::format("{}-{}.dat", kernels.name, safety), points);
             say(fmt::format("overlap: {}, safety {}", kernels.name, safety));
         }
-    write_results(run, "overlap", csv, gnuplot, {1300, 600}, coloured(picture));
+    write_results(run, "stability_overlap", csv, {1300, 600}, {{"bursts", bursts}});
 }
 
 }  // namespace grainfield::bench

@@ -89,66 +89,18 @@ constexpr const char* header =
     "state,precision,isa,damping,step_s,steps,kinetic_energy_J,elastic_energy_J,mean_stress_Pa,"
     "stress_change,position_drift_rms_m,contacts\n";
 
-constexpr const char* picture = R"(
-set multiplot
-set logscale xy
-set format y '10^{{%T}}'
-set xrange [1:1.2e6]
-set xtics ('1' 1, '10' 10, '10^2' 100, '10^3' 1e3, '10^4' 1e4, '10^5' 1e5, '10^6' 1e6)
-set xlabel 'Steps (-)'
-set tmargin at screen 0.96
-set bmargin at screen 0.14
-
-set lmargin at screen 0.11
-set rmargin at screen 0.48
-set yrange [1e-32:1]
-set ylabel 'Kinetic over elastic energy at the start (-)' offset 1,0
-set key bottom left Left reverse samplen 1.2
-plot {lines} \
-     NaN with lines lw 6 lc rgb '#d9dcdf' title 'pale: reference', \
-     NaN with lines lw 1.8 dt 2 lc rgb '#66727c' title 'dashed: mixed'
-
-set lmargin at screen 0.61
-set rmargin at screen 0.98
-set yrange [1e-11:1]
-set ylabel 'Change of the mean stress (-)' offset 0,0
-unset key
-plot {changes} NaN notitle
-unset multiplot
-)";
-
-/// The lines of one panel: `column` of the data.
-std::string plots(int column) {
-    namespace colour = triaxial::report::colour;
-    struct Series {
-        std::string_view file, title, rgb, pale;
-    };
-    const Series all[] = {{"compressed-{}-0.2", "as compressed", colour::ink, "#d9dcdf"},
-                          {"settled-{}-0", "undamped", colour::contrast, "#f0d3bb"},
-                          {"settled-{}-0.2", "damped", colour::main, "#c3d5e2"}};
-    std::string text;
-    const auto add = [&](const Series& s, std::string_view kernels, std::string_view style,
-                         std::string_view title) {
-        text += fmt::format("'{}.dat' using 1:{} with lines {} title '{}', ",
-                            fmt::format(fmt::runtime(s.file), kernels), column, style, title);
-    };
-    for (const Series& s : all) add(s, "reference", fmt::format("lw 6 lc rgb '{}'", s.pale), "");
-    for (const Series& s : all) add(s, "double", fmt::format("lw 1.8 lc rgb '{}'", s.rgb), s.title);
-    for (const Series& s : all) add(s, "mixed", fmt::format("lw 1.8 dt 2 lc rgb '{}'", s.rgb), "");
-    return text;
-}
-
 /// Leaves a copy of the sample alone on these kernels; CSV rows, and the picture's data.
 std::string leave_alone(const core::Simulation& still, const std::string& name,
                         const NamedKernels& kernels, std::int64_t most_steps,
-                        const triaxial::report::Gnuplot& gnuplot) {
+                        triaxial::report::DataBlock& rests) {
     constexpr double looks_per_decade = 10;
     const double alpha = still.scene().damping.force;
     core::Simulation simulation = copy_of(still, *kernels.table);
     const double step = core::StepControl({}).next(simulation);
     const State start = state(simulation);
     const std::vector<std::size_t> spheres = held(simulation);
-    std::string csv, points;
+    std::string csv;
+    rests.begin_part(fmt::format("{}-{}-{}", name, kernels.name, alpha));
     State now;
     double change = 0;
     const auto note = [&] {
@@ -159,9 +111,8 @@ std::string leave_alone(const core::Simulation& still, const std::string& name,
                            now.kinetic, now.elastic, now.stress, change, drift(start, now, spheres),
                            now.contacts);
         if (simulation.steps() > 0)
-            points += fmt::format("{} {} {}\n", simulation.steps(),
-                                  std::max(1e-30, now.kinetic) / start.elastic,
-                                  std::max(1e-16, std::abs(change)));
+            rests.row(simulation.steps(), std::max(1e-30, now.kinetic) / start.elastic,
+                      std::max(1e-16, std::abs(change)));
     };
     note();
     std::int64_t next = 1;
@@ -172,7 +123,6 @@ std::string leave_alone(const core::Simulation& still, const std::string& name,
         const double later = static_cast<double>(next) * std::pow(10, 1 / looks_per_decade);
         next = std::min(std::max(next + 1, static_cast<std::int64_t>(later)), most_steps);
     }
-    gnuplot.data(fmt::format("{}-{}-{}.dat", name, kernels.name, alpha), points);
     say(
         fmt::format("rest: {}, {}, damping {}: kinetic {:.2g} J, stress {:+.2g}, drift {:.2g} m, "
                     "contacts {} -> {}",
@@ -187,20 +137,18 @@ void long_rest(const StabilityRun& run) {
     const std::int64_t most_steps = run.quick ? 10'000 : 1'000'000;
     const core::Simulation early = compressed(run.small);
     core::Simulation still = settled(run.small);
-    const triaxial::report::Gnuplot gnuplot;
     std::string csv = header;
+    triaxial::report::DataBlock rests;
     for (const NamedKernels& kernels : compared_kernels()) {
         // The reference is slow; what it shows, it shows early.
         const std::int64_t steps = kernels.name == "reference" ? most_steps / 10 : most_steps;
-        csv += leave_alone(early, "compressed", kernels, steps / 10, gnuplot);
+        csv += leave_alone(early, "compressed", kernels, steps / 10, rests);
         for (const core::Damping damping : {run.small.damping, core::Damping{}}) {
             still.set_damping(damping);
-            csv += leave_alone(still, "settled", kernels, steps, gnuplot);
+            csv += leave_alone(still, "settled", kernels, steps, rests);
         }
     }
-    write_results(run, "rest", csv, gnuplot, {1300, 700},
-                  fmt::format(fmt::runtime(picture), fmt::arg("lines", plots(2)),
-                              fmt::arg("changes", plots(3))));
+    write_results(run, "stability_rest", csv, {1300, 700}, {{"rests", rests}});
 }
 
 }  // namespace grainfield::bench

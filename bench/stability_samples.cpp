@@ -46,19 +46,14 @@ double kinetic_energy(const core::Simulation& simulation) {
     return sum;
 }
 
-std::string coloured(std::string_view script) {
-    namespace colour = triaxial::report::colour;
-    return fmt::format(fmt::runtime(script), fmt::arg("ink", colour::ink),
-                       fmt::arg("muted", colour::muted), fmt::arg("main", colour::main),
-                       fmt::arg("contrast", colour::contrast), fmt::arg("soft", colour::soft));
-}
-
 void write_results(const StabilityRun& run, std::string_view name, std::string_view csv,
-                   const triaxial::report::Gnuplot& gnuplot, triaxial::report::PictureSize size,
-                   std::string_view script) {
-    const std::string stem = fmt::format("stability_{}", name);
+                   triaxial::report::PictureSize size,
+                   const triaxial::report::GnuplotVariables& variables) {
+    const triaxial::report::Gnuplot gnuplot(gnuplot_templates());
+    const std::string stem(name);
     core::write_file_atomically(run.folder / (stem + ".csv"), csv);
-    core::write_file_atomically(run.folder / (stem + ".png"), gnuplot.png(stem, size, script));
+    core::write_file_atomically(run.folder / (stem + ".png"),
+                                gnuplot.png(name, name, size, variables));
 }
 
 }  // namespace grainfield::bench

@@ -91,35 +91,14 @@ constexpr const char* header =
     "field,contrast,damping,spheres,contacts,estimate_s,measured_limit_s,measured_over_estimate,"
     "theory_ratio,neighbours_fixed_s,sum_of_stiffness_s,caught_s,step_s,step_over_limit\n";
 
-constexpr const char* picture = R"(
-set lmargin at screen 0.1
-set rmargin at screen 0.67
-set tmargin at screen 0.95
-set bmargin at screen 0.15
-set logscale x
-set xrange [0.7:14000]
-set yrange [0:1.5]
-set xtics ('1' 1, '10' 10, '100' 100, '1000' 1000, '10 000' 10000)
-set xlabel 'Stiffness contrast, largest over smallest (-)'
-set ylabel 'Step over the measured limit, undamped (-)' offset 1,0
-set key at screen 0.69,0.95 left top Left reverse samplen 1.6 spacing 1.6
-set arrow from graph 0,first 1 to graph 1,first 1 nohead lw 1.2 lc rgb '{muted}' back
-plot 'bounds.dat' using 1:3 with linespoints pt 4 ps 1.5 lw 1.5 dt 2 lc rgb '{contrast}' title 'limit with damping 0.2', \
-     'bounds.dat' using 1:2 with linespoints pt 7 ps 1.5 lw 2 lc rgb '{main}' title 'estimate 2/ω_{{max}}', \
-     'bounds.dat' using 1:7 with linespoints pt 5 ps 1.2 lw 2 lc rgb '{ink}' title 'step of the solver', \
-     'bounds.dat' using 1:4 with linespoints pt 9 ps 1.4 lw 1.5 lc rgb '{soft}' title 'bound: neighbours fixed', \
-     'bounds.dat' using 1:5 with linespoints pt 11 ps 1.4 lw 1.5 lc rgb '{soft}' title 'bound: 2 √(m/ΣK_n)', \
-     'bounds.dat' using 1:6 with linespoints pt 13 ps 1.4 lw 1.5 lc rgb '{soft}' title 'bound: caught between others'
-)";
-
 }  // namespace
 
 void largest_stable_step(const StabilityRun& run) {
     const core::Scene& sample = run.quick ? run.small : run.large;
     const std::vector<double> contrasts =
         run.quick ? std::vector<double>{1, 100} : std::vector<double>{1, 10, 100, 1000, 10000};
-    const triaxial::report::Gnuplot gnuplot;
-    std::string csv = header, points;
+    std::string csv = header;
+    triaxial::report::DataBlock bounds;
     for (const double contrast : contrasts) {
         core::Simulation still = still_network(sample, contrast);
         const double estimate = 2 / core::FrequencyEstimator().estimate(still);
@@ -138,14 +117,12 @@ void largest_stable_step(const StabilityRun& run) {
                 limits.back(), limits.back() / estimate, 1 / std::sqrt(1 - damping.force), fixed,
                 sum, caught, step, step / limits.back());
         }
-        points += fmt::format("{} {} {} {} {} {} {}\n", contrast, estimate / limits[0],
-                              limits[1] / limits[0], fixed / limits[0], sum / limits[0],
-                              caught / limits[0], step / limits[0]);
+        bounds.row(contrast, estimate / limits[0], limits[1] / limits[0], fixed / limits[0],
+                   sum / limits[0], caught / limits[0], step / limits[0]);
         say(fmt::format("step: contrast {}: limit over estimate {:.4f} undamped, {:.4f} damped",
                         contrast, limits[0] / estimate, limits[1] / estimate));
     }
-    gnuplot.data("bounds.dat", points);
-    write_results(run, "step", csv, gnuplot, {1150, 620}, coloured(picture));
+    write_results(run, "stability_step", csv, {1150, 620}, {{"bounds", bounds}});
 }
 
 }  // namespace grainfield::bench

@@ -1,5 +1,5 @@
 #pragma once
-// The sample that step rates are measured on: clones of the paper's block at 100 kPa.
+// The sample that step rates are measured on: clones of Tran et al.'s block at 100 kPa.
 
 #include <array>
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace grainfield::bench {
 
-/// So many blocks of the paper's sample, held at 100 kPa without gravity: read from `file` (.h5),
+/// So many blocks of Tran et al.'s sample, held at 100 kPa without gravity: read from `file` (.h5),
 /// or packed and left there for the next time. Throws what packing and files throw.
 core::Scene stressed_sample(const std::filesystem::path& file,
                             const std::array<std::int32_t, 3>& blocks);
 
-/// The same of the paper's whole sample (some minutes where it has to be packed).
+/// The same of Tran et al.'s whole sample (some minutes where it has to be packed).
 core::Scene full_sample(const std::filesystem::path& file);
 
 /// Mirror images of a scene's spheres, `times` along each axis, in a box that fits.

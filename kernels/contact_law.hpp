@@ -1,6 +1,7 @@
 #pragma once
-// The contact law of one contact (Eqs. 3-6): linear springs, Coulomb friction, no tension. Pure
-// functions on values; the loops over contacts are in contact_kernels.cpp.
+// The contact law of one contact: linear springs, Coulomb friction, no tension. Equations are
+// those of Tran et al. and of docs/method.md, section 1. Pure functions on values; the loops over
+// contacts are in kernels/reference_contacts.cpp.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +10,8 @@
 
 namespace grainfield::kernels {
 
-/// Eq. (4): K = r kA kB / (kA + kB), r the mean radius [m], k in [Pa]; result in [N/m].
+/// Eq. (4) of Tran et al.: K = r kA kB / (kA + kB), r the mean radius [m], k in [Pa]; result in
+/// [N/m].
 inline double contact_stiffness(double mean_radius, double k_a, double k_b) {
     return mean_radius * k_a * k_b / (k_a + k_b);
 }
@@ -90,7 +92,7 @@ inline TangentialMotion plane_motion(const Vec3& outward, double radius, const V
     return {u, turned};
 }
 
-/// Eq. (6): cuts a shear force back to the Coulomb limit [N].
+/// Eq. (6) of Tran et al.: cuts a shear force back to the Coulomb limit [N].
 inline Vec3 coulomb_limited(const Vec3& shear, double limit) {
     const double square = shear.squaredNorm();
     return square > limit * limit ? Vec3(limit / std::sqrt(square) * shear) : shear;

@@ -69,11 +69,11 @@ ContactSums pair_forces(const SphereColumns& s, const Pair* pairs, ContactColumn
         const double distance = std::sqrt(distance2);
         const Vec3 normal = branch / distance;
         const double overlap = reach - distance;
-        // Eq. (4) with r the mean radius, Eq. (5).
+        // Eqs. (4) and (5) of Tran et al., r the mean radius.
         const double kn =
             contact_stiffness(0.5 * reach, PerSphere ? s.normal_stiffness[i] : p.uniform_stiffness,
                               PerSphere ? s.normal_stiffness[j] : p.uniform_stiffness);
-        const double fn = kn * overlap;  // Eq. (3a)
+        const double fn = kn * overlap;  // Eq. (3a) of Tran et al.
         Vec3 force = -fn * normal;
         if constexpr (Friction) {
             const Vec3 velocity = at(s.vx, s.vy, s.vz, j) - at(s.vx, s.vy, s.vz, i);
@@ -116,8 +116,8 @@ ContactSums wall_forces(const SphereColumns& s, const PlaneWall* walls, const Wa
         const PlaneWall& wall = walls[w];
         const double overlap = s.radius[i] - wall.normal.dot(at(s.x, s.y, s.z, i) - wall.point);
         const double k = PerSphere ? s.normal_stiffness[i] : p.uniform_stiffness;
-        // The wall counts as a body with its own k; r is the sphere's radius. K_s of Eq. (4b) from
-        // k_s = (k_s/k_n) k_n of each body.
+        // The wall counts as a body with its own k; r is the sphere's radius. K_s by
+        // Eq. (4b) of Tran et al., from k_s = (k_s/k_n) k_n of each body.
         const double ks_sphere = p.stiffness_ratio * k;
         const double ks_wall = wall.stiffness_ratio * wall.normal_stiffness;
         const double ks = ks_sphere > 0.0 && ks_wall > 0.0

@@ -16,7 +16,7 @@
 namespace grainfield::packing {
 namespace {
 
-// Shaking and lid, after the prototypes of physics.md: 0.3-3 g and 10-25 Hz pack this block.
+// Shaking and lid (docs/method.md, section 4.2): 0.3-3 g and 10-25 Hz pack this block.
 constexpr double shaking_acceleration = 2.0;  // share of gravity [-]
 constexpr double shaking_frequency = 15.0;    // [1/s]
 constexpr double bout = 0.25;                 // of shaking, between two looks at the lid [s]

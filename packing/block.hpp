@@ -12,7 +12,7 @@
 
 namespace grainfield::packing {
 
-/// What the spheres are made of during the packing (Table 2).
+/// What the spheres are made of during the packing (Table 2 of Tran et al.).
 struct Material {
     double density = 2600;              ///< [kg/m3]
     double normal_stiffness = 9e8;      ///< k_n [Pa]

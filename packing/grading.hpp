@@ -8,8 +8,9 @@
 
 namespace grainfield::packing {
 
-/// Eq. (2) read as physics.md does: the curve is by mass, so that diameters have the number density
-/// f(D)/D^3, f being the slope of the curve. In closed form segment by segment.
+/// Eq. (2) of Tran et al., read as in docs/method.md, section 4.1: the curve is by mass, so that
+/// diameters have the number density f(D)/D^3, f being the slope of the curve. In closed form
+/// segment by segment.
 class NumberDistribution {
   public:
     explicit NumberDistribution(const Grading& grading);

@@ -10,7 +10,7 @@
 
 namespace grainfield::packing {
 
-/// Sieve curve by mass (Table 1), linear in the diameter between sieves.
+/// Sieve curve by mass (Table 1 of Tran et al.), linear in the diameter between sieves.
 struct Grading {
     std::vector<double> sieve_diameter{0.010, 0.020, 0.040, 0.100, 0.160, 0.200};  ///< [m]
     std::vector<double> passing{0, 0, 31.47, 90.93, 99.64, 100};                   ///< by mass [%]

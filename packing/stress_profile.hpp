@@ -1,5 +1,6 @@
 #pragma once
-// Stresses over the depth of a settled sample (Fig. 3b) and how well they follow the theory.
+// Stresses over the depth of a settled sample (Fig. 3b of Tran et al.) and how well they follow the
+// theory.
 
 #include <vector>
 

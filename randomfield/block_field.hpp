@@ -29,7 +29,7 @@ struct BlockField {
                     std::span<double> out);
 };
 
-/// Set up once (milliseconds for the paper's 6 x 12 x 6 blocks), then any number of draws.
+/// Set up once (milliseconds for Tran et al.'s 6 x 12 x 6 blocks), then any number of draws.
 class FieldGenerator {
   public:
     /// Reads options.data where it is given. InputError where grid, options or data are not valid

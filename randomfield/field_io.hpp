@@ -1,5 +1,5 @@
 #pragma once
-// Realizations as files, .csv and .h5 (interface.md, "Files").
+// Realizations as files, .csv and .h5 (docs/interface.md, "Files").
 
 #include <cstdint>
 #include <filesystem>

@@ -32,9 +32,9 @@ struct FieldOptions {
     double cross_correlation = 0.0;
     /// CSV of measured values to condition on (field_data.hpp); empty: none.
     std::string data;
-    /// Friction angle, Eq. (7) unless another marginal is asked for.
+    /// Friction angle, Eq. (7) of Tran et al. unless another marginal is asked for.
     MarginalOptions friction{MarginalKind::bounded, 0.3, 0.9, 2.0, 0.6, 0.15};
-    /// Normal stiffness, Eqs. (8)-(9) unless another marginal is asked for.
+    /// Normal stiffness, Eqs. (8)-(9) of Tran et al. unless another marginal is asked for.
     MarginalOptions stiffness{MarginalKind::lognormal, {}, {}, 2.0, 9e8, 0.8};
 
     /// Whether a property is random.

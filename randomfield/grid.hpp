@@ -34,7 +34,7 @@ struct GridSpec {
                 static_cast<std::int32_t>(i / cells[0] % cells[1]),
                 static_cast<std::int32_t>(i / cells[0] / cells[1])};
     }
-    /// Index of the cell of a block (i, j, k), the paper's mapping of a sphere to the field: the
+    /// Index of the cell of a block (i, j, k), Tran et al.'s mapping of a sphere to the field: the
     /// sphere keeps the block it was made in. InputError where the grid has no such block.
     [[nodiscard]] std::size_t index_of_block(const CellCount& block) const;
     /// Index of the cell that holds a point, for spheres without a block; `offset` is from the

@@ -16,9 +16,9 @@ namespace grainfield::core {
 /// Every random stream there is. The numbers are part of what a seed means: append, never renumber.
 /// All below 256.
 enum class Stream : std::uint32_t {
-    field_friction = 1,        ///< Gaussian field behind the friction angle, Eq. (7)
-    field_stiffness = 2,       ///< Gaussian field behind the normal stiffness, Eqs. (8)-(9)
-    packing_grading = 3,       ///< diameters of the block's spheres, Eq. (2)
+    field_friction = 1,        ///< Gaussian field behind the friction angle, Eq. (7) of Tran et al.
+    field_stiffness = 2,       ///< Gaussian field behind the stiffness, Eqs. (8)-(9) of Tran et al.
+    packing_grading = 3,       ///< diameters of the block's spheres, Eq. (2) of Tran et al.
     packing_position = 4,      ///< where the spheres are placed before settling
     packing_shaking = 5,       ///< phases and directions of the shaking
     solver_start = 6,          ///< start vector of the time step's eigenvalue iterations

@@ -1,5 +1,5 @@
 #pragma once
-// Columns of energy.csv (interface.md, "Files").
+// Columns of energy.csv (docs/interface.md, "Files").
 
 #include <array>
 

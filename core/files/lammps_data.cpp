@@ -17,7 +17,7 @@
 namespace grainfield::core {
 namespace {
 
-constexpr double default_density = 2600.0;  ///< of a sphere without mass; the paper's [kg/m3]
+constexpr double default_density = 2600.0;  ///< of a sphere without mass; Tran et al.'s [kg/m3]
 
 double volume(double radius) {
     return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;

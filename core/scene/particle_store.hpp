@@ -47,8 +47,8 @@ struct ParticleStore {
     // Properties.
     Column<double> radius;            ///< [m]
     Column<double> mass;              ///< [kg]
-    Column<double> normal_stiffness;  ///< k_n of Eq. (4) [Pa]
-    Column<double> friction_angle;    ///< phi of Eq. (6) [rad]
+    Column<double> normal_stiffness;  ///< k_n, Eq. (4) of Tran et al. [Pa]
+    Column<double> friction_angle;    ///< phi, Eq. (6) of Tran et al. [rad]
     Column<BlockIndex> block;         ///< block the sphere belongs to [-]
 
     std::size_t size() const { return radius.size(); }

@@ -183,7 +183,7 @@ HWY_INLINE TangentialLanes<T> plane_motion(Lane3<T> outward, Lane<T> radius, Lan
 /// Result of loading a tangential spring.
 template <class T>
 struct ShearLanes {
-    Lane3<T> shear;            ///< cut back to the Coulomb limit, Eq. (6) [N]
+    Lane3<T> shear;            ///< cut back to the Coulomb limit, Eq. (6) of Tran et al. [N]
     Lane<T> elastic, slipped;  ///< energy in the spring; work of slip in the step [J]
 };
 
@@ -244,7 +244,7 @@ struct LaneSums {
     }
 };
 
-/// Eq. (4): K = r kA kB/(kA + kB) = r/(1/kA + 1/kB).
+/// Eq. (4) of Tran et al.: K = r kA kB/(kA + kB) = r/(1/kA + 1/kB).
 template <class T>
 HWY_INLINE Lane<T> contact_stiffness(Lane<T> mean_radius, Lane<T> compliances) {
     return hn::Div(mean_radius, compliances);

@@ -105,7 +105,7 @@ HWY_INLINE void approach_batch(const PairCall<T>& call, Lane4<T> separation, Pai
     pair.normal = scaled(pair.inverse_distance, pair.branch);
     if (!hn::AllFalse(d, hn::Gt(depth, set<T>(T(0.5) * p.smallest_radius))))
         too_deep |= too_deep_in<T>(call.records, batch.a, batch.b, depth);
-    // Eq. (4) with r the mean radius.
+    // Eq. (4) of Tran et al., r the mean radius.
     const auto mean_radius = hn::Mul(half, pair.reach);
     if constexpr (PerSphere)
         batch.kn = contact_stiffness<T>(mean_radius, both_of.column[compliance_column]);
@@ -164,7 +164,7 @@ HWY_INLINE void motion_batch(const PairCall<T>& call, PairBatch<T>& batch) {
 template <class T, bool Friction, bool Sums, bool Again>
 HWY_INLINE void force_batch(const PairCall<T>& call, PairBatch<T>& batch, LaneSums<T>& sums) {
     const PairLanes<T>& pair = batch.pair;
-    const auto fn = hn::Mul(batch.kn, pair.overlap);  // Eq. (3a)
+    const auto fn = hn::Mul(batch.kn, pair.overlap);  // Eq. (3a) of Tran et al.
     batch.force = scaled(hn::Neg(fn), pair.normal);
     [[maybe_unused]] LaneMask<T> counted;
     if constexpr (Sums) {

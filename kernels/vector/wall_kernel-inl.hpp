@@ -12,7 +12,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainfield::kernels::HWY_NAMESPACE {
 
-/// Shear stiffness of a sphere on a wall: K_s of Eq. (4) from k_s = (k_s/k_n) k_n of each body.
+/// Shear stiffness of a sphere on a wall: K_s by Eq. (4b) of Tran et al., from
+/// k_s = (k_s/k_n) k_n of each body.
 template <class T>
 double wall_shear_stiffness(double radius, double k, const WallPlane<T>& wall,
                             const PairParameters<T>& p) {
@@ -33,7 +34,7 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
     const auto wall_compliance = set<T>(1 / wall.stiffness), advance = set<T>(wall.advance);
     const T ks_wall = wall.stiffness_ratio * wall.stiffness;
     const bool springs = p.stiffness_ratio > 0 && ks_wall > 0;
-    // Eq. (4) over the radius, where all spheres are the same.
+    // Eq. (4) of Tran et al., divided by the radius, where all spheres are the same.
     const auto over_radius = [](double a, double b) { return static_cast<T>(a * b / (a + b)); };
     const auto uniform_kn = set<T>(over_radius(p.uniform_stiffness, wall.stiffness));
     const auto uniform_ks = set<T>(

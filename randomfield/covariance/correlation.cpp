@@ -32,7 +32,7 @@ double CorrelationModel::operator()(const Vec3& tau) const {
     const double r = scaled.norm();
     switch (kind) {
         case Correlation::markov:
-            return std::exp(-2.0 * r);  // Eq. (10)
+            return std::exp(-2.0 * r);  // Eq. (10) of Tran et al.
         case Correlation::separable_markov:
             return std::exp(-2.0 * scaled.lpNorm<1>());
         case Correlation::gaussian:

@@ -10,7 +10,7 @@ namespace grainfield::randomfield {
 /// Fenton & Vanmarcke have it; so every model with the same theta has the same area under its
 /// curve.
 enum class Correlation {
-    markov,            ///< exp(-2 r), Eq. (10): ellipsoidal
+    markov,            ///< exp(-2 r), Eq. (10) of Tran et al.: ellipsoidal
     separable_markov,  ///< product over d of exp(-2 |tau_d| / theta_d)
     gaussian,          ///< exp(-pi r^2)
     spherical,         ///< 1 - 3/2 h + 1/2 h^3 with h = 3/4 r; none beyond a range of 4/3 theta
@@ -23,7 +23,7 @@ const char* name_of(Correlation correlation);
 
 /// What two points of the field have to do with each other.
 struct CorrelationModel {
-    /// Implicit on purpose: correlation lengths alone are those of the paper's model.
+    /// Implicit on purpose: correlation lengths alone are those of Tran et al.'s model.
     CorrelationModel(const Vec3& theta, Correlation model = Correlation::markov)  // NOLINT
         : length(theta), kind(model) {}
 

@@ -17,7 +17,7 @@ namespace grainfield::randomfield {
 /// still has more than one. Where a count is odd the stage's grid is one cell larger than needed
 /// and cut. Linear in its normals, Z = M U, with E[Z Z^T] = M M^T close to the exact covariance but
 /// not equal to it: the noise of a stage is independent between parents (see field_error.hpp). For
-/// 3 x 6 x 3 -> 6 x 12 x 6 cells at the paper's anisotropy covariances are off by up to 0.145,
+/// 3 x 6 x 3 -> 6 x 12 x 6 cells at Tran et al.'s anisotropy covariances are off by up to 0.145,
 /// 0.396, 0.201, 0.112, 0.012 gamma at theta_y = 0.01, 0.1, 0.5, 1, 10 m; variances are exact. A
 /// second stage takes the first one's covariances for exact, and variances drift as well: by up to
 /// 0.27 gamma from 2 x 3 x 2 cells. So stage 0 should be as large as it may.

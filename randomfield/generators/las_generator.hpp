@@ -18,7 +18,7 @@ namespace grainfield::randomfield {
 ///   keeps the others as fine as its size allows;
 /// - cells up to two steps away are looked at, across faces and edges;
 /// - details are conditioned on those already drawn next door (detail_stencil.hpp).
-/// From 54 cells of stage 0 to the paper's 6 x 12 x 6, covariances are off by up to 0.013, 0.044,
+/// From 54 cells of stage 0 to Tran et al.'s 6 x 12 x 6, covariances are off by up to 0.013, 0.044,
 /// 0.015, 0.008, 0.001 gamma at theta_y = 0.01, 0.1, 0.5, 1, 10 m; as published by 0.145, 0.396,
 /// 0.201, 0.112, 0.012.
 class LasGenerator final : public Generator {

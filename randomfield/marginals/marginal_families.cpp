@@ -62,7 +62,8 @@ Bounded::Bounded(const MarginalOptions& options)
 
 double Bounded::value(double g) const {
     const double half_range = 0.5 * (maximum - minimum);
-    return minimum + half_range * (1.0 + std::tanh(s * g / (2.0 * std::numbers::pi)));  // Eq. (7)
+    // Eq. (7) of Tran et al.
+    return minimum + half_range * (1.0 + std::tanh(s * g / (2.0 * std::numbers::pi)));
 }
 
 double Bounded::score(double value) const {
@@ -71,12 +72,12 @@ double Bounded::score(double value) const {
 }
 
 Lognormal::Lognormal(const MarginalOptions& options)
-    // Eq. (9a): sigma_ln^2 = ln(1 + COV^2); Eq. (9b): mu_ln = ln mu - sigma_ln^2 / 2.
+    // Eqs. (9a, b) of Tran et al.: sigma_ln^2 = ln(1 + COV^2), mu_ln = ln mu - sigma_ln^2 / 2.
     : sigma_ln(std::sqrt(std::log1p(options.cov * options.cov))),
       mu_ln(std::log(options.mean) - 0.5 * sigma_ln * sigma_ln) {}
 
 double Lognormal::value(double g) const {
-    return std::exp(mu_ln + sigma_ln * g);  // Eq. (8)
+    return std::exp(mu_ln + sigma_ln * g);  // Eq. (8) of Tran et al.
 }
 
 double Lognormal::score(double value) const {

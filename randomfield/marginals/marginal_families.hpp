@@ -15,7 +15,7 @@ struct Interval {
 // Every family: value(g) grows with g and holds for any finite g; score() is its inverse, for
 // values inside range(). All good to some 1e-15 relative to the spread, in both tails.
 
-/// Eq. (7), symmetric between minimum and maximum.
+/// Eq. (7) of Tran et al., symmetric between minimum and maximum.
 struct Bounded {
     explicit Bounded(const MarginalOptions& options);
     [[nodiscard]] double value(double g) const;
@@ -24,7 +24,7 @@ struct Bounded {
     double minimum, maximum, s;
 };
 
-/// Eqs. (8)-(9).
+/// Eqs. (8)-(9) of Tran et al.
 struct Lognormal {
     explicit Lognormal(const MarginalOptions& options);
     [[nodiscard]] double value(double g) const;

@@ -12,12 +12,12 @@ enum class MarginalKind { bounded, lognormal, normal, truncated_normal, beta, we
 
 /// Distribution of a property at a point, at mid-height of the sample. The property of a point is
 /// the quantile of its standard normal G; that of a cell is the same function of the cell's average
-/// of G, whose variance is gamma < 1, as in the paper.
+/// of G, whose variance is gamma < 1, as in Tran et al.
 struct MarginalOptions {
     MarginalKind kind = MarginalKind::lognormal;
     std::optional<double> minimum;  ///< of bounded, truncated normal, beta [rad or Pa]
     std::optional<double> maximum;  ///< of bounded, truncated normal, beta [rad or Pa]
-    double s = 2.0;                 ///< of bounded: variability factor, Eq. (7) [-]
+    double s = 2.0;                 ///< of bounded: variability factor, Eq. (7) of Tran et al. [-]
     double mean = 0.0;  ///< of all but bounded; truncated normal: before the cut [rad or Pa]
     double cov = 0.0;   ///< coefficient of variation, of and as the mean [-]
     double mean_gradient = 0.0;  ///< growth of the mean with height y (bounded: of both bounds);

@@ -1,6 +1,6 @@
 #pragma once
-// From the Gaussian field to the soil: the marginal distribution of a property, Eqs. (7)-(9) and
-// four more.
+// From the Gaussian field to the soil: the marginal distribution of a property, Eqs. (7)-(9) of
+// Tran et al. and four more.
 
 #include <cstdint>
 #include <span>
@@ -21,10 +21,10 @@ struct Moments {
 
 /// The distribution of one property over cells whose G has a variance of gamma, at one height.
 ///
-/// The paper puts local averages G (variance gamma < 1) into Eqs. (7) and (8) as they are, and so
-/// do all distributions here: cells vary less than points, and their mean is another than a point's
-/// unless the distribution is symmetric. preserve_mean scales all values (bounds included) by one
-/// factor that undoes the latter.
+/// Tran et al. put local averages G (variance gamma < 1) into their Eqs. (7) and (8) as they are,
+/// and so do all distributions here: cells vary less than points, and their mean is another than a
+/// point's unless the distribution is symmetric. preserve_mean scales all values (bounds included)
+/// by one factor that undoes the latter.
 class Marginal {
   public:
     /// Options as validate() accepts them; gamma in (0, 1], 1 for points [-].

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -22,7 +24,7 @@ using Overrides = std::vector<std::string>;
 
 class LoadConfig : public ConfigTest {};
 
-/// The config block of interface.md ("Config keys"), as it stands there.
+/// The values of Tran et al. (docs/method.md).
 constexpr std::string_view papers_text = R"(
 [grading]
 sieve_diameter = [0.010, 0.020, 0.040, 0.100, 0.160, 0.200]   # m
@@ -79,6 +81,23 @@ TEST_F(LoadConfig, DefaultsAreThePapers) {
     expect_equal(load_config(std::nullopt), papers);
     expect_equal(load_config(write("empty.toml", "")), papers);
     expect_equal(load_config(write("comment.toml", "# nothing\n[packing]\n")), papers);
+}
+
+/// The first block of TOML in docs/interface.md ("Config keys").
+std::string documented_config() {
+    std::ifstream stream(GRAINFIELD_SOURCE_DIR "/docs/interface.md");
+    const std::string page{std::istreambuf_iterator<char>(stream), {}};
+    const std::string fence = "```toml\n";
+    const std::size_t begin = page.find(fence) + fence.size();
+    return page.substr(begin, page.find("```", begin) - begin);
+}
+
+TEST_F(LoadConfig, TheInterfaceDocumentsEveryKeyWithItsDefault) {
+    const std::string text = documented_config();
+    expect_equal(load_config(write("documented.toml", text)), Config{});
+    Config config;
+    for (const ConfigKey& key : config_keys(config))
+        EXPECT_THAT(text, HasSubstr(key.path.substr(key.path.rfind('.') + 1))) << key.path;
 }
 
 TEST_F(LoadConfig, ReadsEveryKey) {

@@ -58,7 +58,7 @@ TEST_P(AtRest, ColumnCarriesAllAbove) {
 }
 
 TEST_P(AtRest, TwoSpheresSqueezedBetweenWallsAreSpringsInSeries) {
-    // Unequal radii and stiffnesses: Eq. (4) for each of the three contacts.
+    // Unequal radii and stiffnesses: Eq. (4) of Tran et al. for each of the three contacts.
     const Ball a{.x = Vec3(0, 0.05, 0), .radius = 0.05, .stiffness = 1e6};
     const Ball b{.x = Vec3(0, 0.13, 0), .radius = 0.03, .stiffness = 3e6};
     const double squeeze = 1e-3;

@@ -1,7 +1,8 @@
 """The spheres of the cross-check and the contact law that all three codes are given.
 
-Three kinds of spheres of different size, stiffness and friction, so that both sides of Eq. (4) and
-the smaller of two friction angles are put to the test in every contact between unlike spheres.
+Three kinds of spheres of different size, stiffness and friction, so that both sides of Eq. (4) of
+Tran et al. (docs/method.md) and the smaller of two friction angles are put to the test in every
+contact between unlike spheres.
 """
 import math
 
@@ -16,7 +17,7 @@ ALL = range(len(KINDS))
 
 
 def pair_stiffness(a, b):
-    """Eq. (4): K_n = r kA kB / (kA + kB), r the mean radius [N/m]."""
+    """Eq. (4) of Tran et al.: K_n = r kA kB / (kA + kB), r the mean radius [N/m]."""
     (ra, ka, _), (rb, kb, _) = KINDS[a], KINDS[b]
     return 0.5 * (ra + rb) * ka * kb / (ka + kb)
 

@@ -42,8 +42,8 @@ def sample(work):
 
 {len(spheres)} spheres, a third of them each of: {kinds} (radius, k_n, friction angle), in a box with
 walls without friction (k_n = {WALL_STIFFNESS:.1e} Pa), porosity {1 - solid / volume:.4f}, made by
-Grainfield without friction, at rest under {before / 1e3:.1f} kPa. K_n from Eq. (4) for each pair of
-kinds, K_s = {STIFFNESS_RATIO:g} K_n, friction of the smaller angle, local damping {DAMPING:g} of force and moment.
+Grainfield without friction, at rest under {before / 1e3:.1f} kPa. K_n from Eq. (4) of
+[docs/method.md](../../../docs/method.md) for each pair of kinds, K_s = {STIFFNESS_RATIO:g} K_n, friction of the smaller angle, local damping {DAMPING:g} of force and moment.
 
 | | Grainfield | YADE | LAMMPS |
 |---|---|---|---|

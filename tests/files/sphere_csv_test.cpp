@@ -17,7 +17,7 @@ class SphereCsvTest : public FilesTest {
         return read_spheres(text_file("s.csv", text));
     }
 
-    /// The error for this text, without the folder in front of "s.csv".
+    /// The error for this text, without the folder in front of the file's name.
     std::string error(const std::string& text) const {
         const std::string message = message_of<InputError>([&] { read(text); });
         EXPECT_THAT(message, StartsWith(in_folder("s.csv").string()));

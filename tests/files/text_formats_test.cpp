@@ -38,7 +38,7 @@ SphereFile two_spheres() {
 
 // The layout as https://docs.lammps.org/read_data.html gives it.
 TEST_F(LammpsDataTest, HasTheDocumentedLayout) {
-    SphereFile file = two_spheres();  // without mass: the paper's density
+    SphereFile file = two_spheres();  // without mass: Tran et al.'s density
     file.box = Box{{-1, -2, -3}, {4, 5, 6.5}};
     file.has_velocity = true;
     write_spheres(in_folder("s.data"), file);

@@ -12,7 +12,8 @@ namespace {
 constexpr double eps = 0x1p-52;
 
 TEST(ContactLaw, StiffnessIsTheSeriesOfTwoHalves) {
-    // Eq. (4): equal bodies give r k/2, a rigid partner r k; either order is the same.
+    // Eq. (4) of Tran et al.: equal bodies give r k/2, a rigid partner r k; either order is the
+    // same.
     EXPECT_DOUBLE_EQ(contact_stiffness(0.05, 9e8, 9e8), 0.05 * 4.5e8);
     EXPECT_NEAR(contact_stiffness(0.05, 9e8, 1e24), 0.05 * 9e8, 0.05 * 9e8 * 1e-15);
     EXPECT_DOUBLE_EQ(contact_stiffness(0.07, 2e8, 6e8), contact_stiffness(0.07, 6e8, 2e8));

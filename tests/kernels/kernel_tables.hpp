@@ -1,8 +1,14 @@
 #pragma once
-// The kernel tables that the tests of physics run over, each with the round-off to expect.
+// The kernel tables that the tests of physics run over, each with the round-off to expect. What
+// the environment variable GRAINFIELD_TEST_KERNELS says:
+//   (nothing)  the reference, and the widest vectors of this machine in double and mixed precision
+//   all        every instruction set; `dev test --all`
+//   sanitizers the reference and one mixed table
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <iterator>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -24,12 +30,28 @@ inline std::ostream& operator<<(std::ostream& out, const KernelCase& c) {
     return out << c.name;
 }
 
+/// What GRAINFIELD_TEST_KERNELS says.
+inline std::string chosen_kernels() {
+    const char* chosen = std::getenv("GRAINFIELD_TEST_KERNELS");  // NOLINT(concurrency-mt-unsafe)
+    return chosen == nullptr ? "" : chosen;
+}
+
+/// Instruction sets to test: all, or the widest that runs here.
+inline std::vector<InstructionSet> tested_sets() {
+    if (chosen_kernels() == "all") return {std::begin(instruction_sets), std::end(instruction_sets)};
+    InstructionSet widest = instruction_sets[0];
+    for (const InstructionSet isa : instruction_sets)
+        if (runs_here(isa)) widest = isa;
+    return {widest};
+}
+
 inline std::vector<KernelCase> kernel_cases() {
     std::vector<KernelCase> cases{{"reference", &reference_kernels(), 0x1p-52}};
-    for (const InstructionSet isa : instruction_sets) {
+    for (const InstructionSet isa : tested_sets()) {
         const bool here = runs_here(isa);
         const std::string set = kernels::name(isa);
-        cases.push_back({set + "_double", here ? double_table(isa) : nullptr, 0x1p-52});
+        if (chosen_kernels() != "sanitizers")
+            cases.push_back({set + "_double", here ? double_table(isa) : nullptr, 0x1p-52});
         cases.push_back({set + "_mixed", here ? mixed_table(isa) : nullptr, 0x1p-23});
     }
     return cases;

@@ -153,7 +153,7 @@ def make_tree(root, tree, mutants):
         data = path.read_bytes()
         if name in by_file:
             data = mutated(data.decode(), by_file[name]).encode()
-        if name.startswith("kernels/vector/") and name.endswith(".cpp"):
+        if name.endswith(".cpp") and b"HWY_TARGET_INCLUDE" in data:
             data = with_few_targets(data.decode()).encode()
         write_if_new(tree / name, data)
         os.chmod(tree / name, path.stat().st_mode)

@@ -15,7 +15,7 @@ namespace {
 using testing::narrow_grading;
 using testing::sphere_volume;
 
-/// Solid volume of the paper's block [m3].
+/// Solid volume of Tran et al.'s block [m3].
 constexpr double paper_volume = 0.6 * 0.25 * 0.25 * 0.25;
 
 /// Integral of f(D) D^power from the finest sieve to `diameter`, f the slope of the curve as a

@@ -34,8 +34,8 @@ double mean_wall_stress(const core::Simulation& simulation) {
            3;
 }
 
-/// S of physics.md with the contacts on walls: under an affine compression a sphere's overlap with
-/// a wall grows with its distance from it.
+/// S of docs/method.md, section 9, with the contacts on walls: under an affine compression a
+/// sphere's overlap with a wall grows with its distance from it.
 double stiffness_sum_with_walls(const core::Simulation& simulation) {
     const double volume = core::box_dimensions(simulation).prod();
     double sum = core::stiffness_sum(simulation, volume);
@@ -131,7 +131,8 @@ TEST(Isotropic, RandomSampleReachesTheStressAndItsStiffnessIsBounded) {
     EXPECT_LT(share, 1);  // the affine strain is an upper bound
     ASSERT_GT(fabric.mechanical_coordination_number, 5.5);
     // Near isostaticity (Z about 6) and between walls 8 spheres apart: 27 % below the bound, where
-    // physics.md has 10-15 % for large samples. The stresses are good to 8 % of the step.
+    // docs/method.md, section 9: 10-15 % for large samples. The stresses are good to 8 % of the
+    // step.
     EXPECT_GT(share, 0.65);
 }
 

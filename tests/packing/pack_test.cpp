@@ -46,8 +46,8 @@ TEST(Pack, SettledSampleFollowsItsWeightOnAnyNumberOfThreads) {
     EXPECT_NEAR(p.box.upper.y(), 0.8, 0.033 * 0.8);  // what that porosity is in height
     EXPECT_EQ(p.isotropic_stress, 0);
 
-    // Four blocks of four spheres' height: layers are thin against the grains, physics.md's 2 %
-    // and 0.99 are those of the full sample.
+    // Four blocks of four spheres' height: layers are thin against the grains, the 2 % of the full
+    // sample and 0.99 are those of the full sample.
     EXPECT_NEAR(p.profile.slope_ratio, 1, 0.05);
     EXPECT_GT(p.profile.r2, 0.99);
     // A sample without friction, one block of 65 spheres: over ten seeds and instruction sets K0 is

@@ -19,7 +19,7 @@ using testing::StartsWith;
 constexpr const char* two_spheres = "x,y,z,radius\n0,0.1,0,0.1\n1,0.1,0,0.1\n";
 constexpr const char* short_scene =
     "[particles]\nfile = \"spheres.csv\"\n[time]\nstep = 1e-5\nend = 1e-4\n";
-constexpr const char* floor_wall = "[[wall]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\n";
+constexpr const char* plain_floor = "[[wall]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\n";
 
 void expect_failure(const Outcome& outcome, int code, const std::string& message) {
     EXPECT_EQ(outcome.code, code) << outcome.err;
@@ -55,13 +55,13 @@ const SceneFault scene_faults[] = {
     {"NoSphere", "x,y,z,radius\n", scene, "at least one"},
     {"EmptyScene", two_spheres, "", "particles.file"},
     {"NotANumber", "x,y,z,radius\n0,0,0,1\n0,nan,0,1\n", scene, "spheres.csv:3: column y = nan"},
-    {"OutsideTheWalls", "x,y,z,radius\n0,-5,0,0.1\n", scene + floor_wall, "sphere 0 (line 2)"},
-    {"IntoAWall", "x,y,z,radius\n0,0.089,0,0.1\n", scene + floor_wall, "beyond wall 0"},
+    {"OutsideTheWalls", "x,y,z,radius\n0,-5,0,0.1\n", scene + plain_floor, "sphere 0 (line 2)"},
+    {"IntoAWall", "x,y,z,radius\n0,0.089,0,0.1\n", scene + plain_floor, "beyond wall 0"},
     {"Overlap", "x,y,z,radius\n0,1,0,0.1\n0.189,1,0,0.1\n", scene, "10 %"},
     {"WideVectorUnits", two_spheres, scene + "[solver]\nisa = \"avx1024\"\n", "\"avx512\""},
     {"NoWholeStep", two_spheres,
      "[particles]\nfile = \"spheres.csv\"\n[time]\nstep = 1\nend = 0.1\n", "time.end"},
-    {"StressWithoutABox", two_spheres, scene + floor_wall + "stress = 1e5\n", "opposite walls"},
+    {"StressWithoutABox", two_spheres, scene + plain_floor + "stress = 1e5\n", "opposite walls"},
     {"StressOnATiltedWall", two_spheres,
      scene + "[[wall]]\npoint = [0, -9, 0]\nnormal = [1, 1, 0]\nstress = 1e5\n", "along an axis"},
 };

@@ -16,7 +16,8 @@ namespace {
 
 using testing::HasSubstr;
 
-// Spheres of R = 0.1 m with the paper's material: K_n = R k/2 between two of them and with a wall.
+// Spheres of R = 0.1 m with Tran et al.'s material: K_n = R k/2 between two of them and with a
+// wall.
 constexpr double radius = 0.1;                                                           // [m]
 constexpr double mass = 2600 * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;  // [kg]
 constexpr double stiffness = 0.5 * radius * 9e8;                                         // [N/m]

@@ -123,7 +123,7 @@ TEST(Conditioning, MeanAndCovarianceAreThoseOfTheJointNormal) {
 }
 
 TEST(Conditioning, ExactValuesComeBackToRoundOff) {
-    // Down a whole column of the paper's blocks, from nearly independent to nearly the same.
+    // Down a whole column of Tran et al.'s blocks, from nearly independent to nearly the same.
     const GridSpec grid;
     for (const double theta_y : {0.01, 0.5, 10.0, 1000.0}) {
         std::vector<CellDatum> data;

@@ -11,7 +11,7 @@ namespace grainfield::randomfield {
 inline constexpr auto friction = Property::friction_angle;
 inline constexpr auto stiffness = Property::normal_stiffness;
 
-/// The paper's anisotropy: theta_x = theta_z = 10 theta_y.
+/// Tran et al.'s anisotropy: theta_x = theta_z = 10 theta_y.
 inline Vec3 paper_theta(double theta_y) {
     return {10.0 * theta_y, theta_y, 10.0 * theta_y};
 }

@@ -120,7 +120,7 @@ TEST(Las, WithoutSubdivisionIsTheExactFactor) {
     EXPECT_EQ(a, b);
 }
 
-// physics.md: 3 x 6 x 3 -> 6 x 12 x 6 at the paper's anisotropy.
+// docs/method.md, section 5.3: 3 x 6 x 3 -> 6 x 12 x 6 at Tran et al.'s anisotropy.
 TEST(LasClassic, OneSubdivisionHasTheKnownErrors) {
     struct Row {
         double theta_y, error;

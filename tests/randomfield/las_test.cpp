@@ -70,8 +70,8 @@ TEST(Las, ParentsAreTheMeansOfTheirChildren) {
     }
 }
 
-// From at most 54 cells to the paper's blocks at its five correlation lengths. Regression values,
-// rounded up; what they replace is in OneSubdivisionHasTheKnownErrors.
+// From at most 54 cells to Tran et al.'s blocks at their five correlation lengths. Regression
+// values, rounded up; what they replace is in OneSubdivisionHasTheKnownErrors.
 TEST(Las, CovarianceErrorsOfThePapersFieldsAreSmall) {
     struct Row {
         double theta_y, from_54, from_12;
@@ -106,8 +106,8 @@ TEST(Las, ErrorsStaySmallOverManyStages) {
     }
 }
 
-// From 54 cells to the paper's blocks, over the correlation lengths where each is worst. Regression
-// values, rounded up, as README.md has them.
+// From 54 cells to Tran et al.'s blocks, over the correlation lengths where each is worst.
+// Regression values, rounded up, as README.md has them.
 TEST(Las, ErrorsOfEveryCorrelationModelAreThoseStated) {
     struct Row {
         Correlation kind;

@@ -166,7 +166,7 @@ TEST(Marginals, PointsHaveTheMomentsAskedFor) {
         EXPECT_NEAR(moments.mean, one.options.mean, 1e-10 * moments.mean) << one.name;
         EXPECT_NEAR(moments.deviation / moments.mean, one.options.cov, 1e-9) << one.name;
     }
-    // Eq. (7): physics.md's value to its last digit.
+    // Eq. (7) of Tran et al.; the value of docs/method.md, section 5.4, to its last digit.
     const Moments bounded = Marginal(FieldOptions().friction, 1.0).moments();
     EXPECT_NEAR(bounded.mean, 0.6, 1e-12);
     EXPECT_NEAR(bounded.deviation, 0.08755, 0.5e-5);
@@ -205,7 +205,7 @@ TEST(Marginals, MeanOfLognormalCellsFallsUnlessPreserved) {
         LocalAverageCovariance(Vec3(0.25, 0.25, 0.25), paper_theta(0.01), {1, 1, 1}).gamma();
     MarginalOptions options = FieldOptions().stiffness;
     const RowMarginals paper(options, Property::normal_stiffness, GridSpec{}, gamma);
-    EXPECT_NEAR(paper.mean_ratio(), 0.78, 0.5e-2);  // physics.md
+    EXPECT_NEAR(paper.mean_ratio(), 0.78, 0.5e-2);  // docs/method.md, Eq. (25)
     EXPECT_NEAR(paper.mean_ratio(), std::exp(-std::log(1.64) * (1.0 - gamma) / 2.0), 1e-14);
     options.preserve_mean = true;
     const RowMarginals preserved(options, Property::normal_stiffness, GridSpec{}, gamma);
@@ -213,7 +213,7 @@ TEST(Marginals, MeanOfLognormalCellsFallsUnlessPreserved) {
 }
 
 // The mean is linear in the height of the cells' middle and what is given at mid-height; the
-// coefficient of variation stays; Eq. (7) moves as a whole.
+// coefficient of variation stays; Eq. (7) of Tran et al. moves as a whole.
 TEST(RowMarginals, FollowATrendWithHeight) {
     const GridSpec grid;  // 3 m high, rows of 0.25 m
     MarginalOptions options = FieldOptions().stiffness;

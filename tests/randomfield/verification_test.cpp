@@ -52,7 +52,7 @@ TEST(Verification, FindsNothingWrongWithTheExactField) {
         EXPECT_EQ(outside(*field.histogram), 0u);
         EXPECT_EQ(field.correlation[0].size(), 6u);
         EXPECT_EQ(field.correlation[1].size(), 12u);
-        // physics.md: correlation of cells one apart, in x and y.
+        // docs/method.md, section 5.2: correlation of cells one apart, in x and y.
         EXPECT_NEAR(field.correlation[0][1].exact, 0.9764, 0.5e-4);
         EXPECT_NEAR(field.correlation[1][1].exact, 0.5477, 0.5e-4);
         // Bands that say something.

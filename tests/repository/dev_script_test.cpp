@@ -147,27 +147,52 @@ TEST_F(DevScript, StopsWhereConfiguringFails) {
 }
 
 TEST_F(DevScript, CiRunsUnitsThenSanitizersThenTheLongTests) {
+    tool("ctest", record + "; echo \"kernels: $GRAINFIELD_TEST_KERNELS.\" >>\"$CALLS\"");
     EXPECT_EQ(run(".ci/run", ""), 0) << output();
     EXPECT_EQ(calls(),
-              "cmake --preset release\ncmake --build --preset release -j\n"
-              "ctest --preset release -L ^unit$ -j 2 --no-tests=error\n"
-              "cmake --preset asan\ncmake --build --preset asan --target unit_tests -j\n"
-              "ctest --preset asan -L ^unit$ -j 2 --no-tests=error\n"
-              "ctest --preset release -LE ^(unit|extra)$ -j 2\n");
+              "cmake --preset release\ncmake --build --preset release --target all_tests -j\n"
+              "cmake -E rm -rf build/release/test_times\n"
+              "ctest --preset release -L ^unit$ -j 2 --no-tests=error\nkernels: .\n"
+              "cmake --preset asan\ncmake --build --preset asan --target sanitized_tests -j\n"
+              "ctest --preset asan -L ^sanitized$ -j 2 --no-tests=error\nkernels: sanitizers.\n"
+              "ctest --preset release -L ^long$ -j 2 --no-tests=error\nkernels: .\n");
+}
+
+TEST_F(DevScript, QuickTestsAreTheUnitsAlone) {
+    EXPECT_EQ(run("dev", "test --quick"), 0) << output();
+    EXPECT_THAT(calls(), HasSubstr("ctest --preset release -L ^unit$ -j 2"));
+    EXPECT_THAT(calls(), Not(HasSubstr("asan")));
+    EXPECT_THAT(calls(), Not(HasSubstr("long")));
+}
+
+TEST_F(DevScript, AllTestsRunOnEveryKernel) {
+    tool("ctest", record + "; echo \"kernels: $GRAINFIELD_TEST_KERNELS.\" >>\"$CALLS\"");
+    EXPECT_EQ(run("dev", "test --all"), 0) << output();
+    EXPECT_THAT(calls(), HasSubstr("-L ^unit$ -j 2 --no-tests=error\nkernels: all.\n"));
+    EXPECT_THAT(calls(), HasSubstr("-L ^sanitized$ -j 2 --no-tests=error\nkernels: sanitizers.\n"));
+    EXPECT_THAT(calls(), HasSubstr("-L ^(long|extra)$ -j 2 --no-tests=error\nkernels: all.\n"));
 }
 
 TEST_F(DevScript, TestsCanBeChosen) {
-    EXPECT_EQ(run("dev", "test -R 'A b'"), 0) << output();
-    EXPECT_THAT(calls(), HasSubstr("-j\nctest --preset release -R A b\n"));
-    EXPECT_EQ(run("dev", "test --quick"), 0) << output();
-    EXPECT_THAT(calls(), Not(HasSubstr("asan")));
-    EXPECT_EQ(run("dev", "test --all"), 0) << output();
-    EXPECT_THAT(calls(), HasSubstr("ctest --preset release -LE ^unit$ -j 2\n"));
+    EXPECT_EQ(run("dev", "test core"), 0) << output();
+    EXPECT_EQ(calls(),
+              "cmake --preset release\ncmake --build --preset release --target test_core -j\n"
+              "ctest --preset release -R ^core(\\.[0-9]+)?$ -j 2 --no-tests=error\n");
+    // A filter: the programs that are there are asked themselves.
+    fs::remove(folder / "calls");
+    EXPECT_EQ(run("dev", "test 'No such suite.*'"), 0) << output();
+    EXPECT_EQ(calls(),
+              "cmake --preset release\ncmake --build --preset release --target all_tests -j\n");
+    if (fs::exists(GRAINFIELD_SOURCE_DIR "/build/release/tests/test_repository")) {
+        EXPECT_THAT(output(), HasSubstr("0 tests from 0 test suites ran"));
+    }
+    EXPECT_EQ(run("dev", "test --qick"), 1);
+    EXPECT_THAT(output(), HasSubstr("no option '--qick'"));
 }
 
 TEST_F(DevScript, VerifyWritesThePageFromATestRunOnly) {
     const std::string first =
-        "cmake --preset release\ncmake --build --preset release -j\n"
+        "cmake --preset release\ncmake --build --preset release --target all_tests -j\n"
         "cmake -E rm -rf build/release/verification\n"
         "ctest --preset release -L ^verify$ -j 2 --no-tests=error\n";
     tool("ctest", record + "; exit 8");
@@ -187,7 +212,7 @@ TEST_F(DevScript, FailsWithAnyTestAndStillRunsTheOthers) {
     tool("ctest", record + "; case $* in *asan*) exit 8 ;; esac");
     EXPECT_EQ(run("dev", "test"), 1);
     EXPECT_THAT(output(), HasSubstr("failed: sanitizers"));
-    EXPECT_THAT(calls(), HasSubstr("-LE ^(unit|extra)$"));
+    EXPECT_THAT(calls(), HasSubstr("-L ^long$"));
 }
 
 }  // namespace

@@ -34,12 +34,12 @@ inline bool is_cpp(std::string_view path) {
     return ends(".cpp") || ends(".hpp") || ends(".h") || ends(".inc");
 }
 
-/// Every text file below `root` but for build results and what belongs to git, an editor or a
-/// workplace; sorted by path. A file with a zero byte is not text.
-inline std::vector<SourceFile> text_files(const std::filesystem::path& root) {
+/// Every file below `root` but for build results and what belongs to git, an editor or a workplace;
+/// from the root, with '/', sorted.
+inline std::vector<std::string> file_paths(const std::filesystem::path& root) {
     constexpr std::array<std::string_view, 9> foreign = {
         ".git", "build", "out", "shared", ".cache", ".vscode", ".idea", ".venv", "__pycache__"};
-    std::vector<SourceFile> files;
+    std::vector<std::string> paths;
     for (std::filesystem::recursive_directory_iterator entry(root), end; entry != end; ++entry) {
         const std::string name = entry->path().filename().string();
         if (entry->is_directory() || name == ".git") {  // in a worktree .git is a file
@@ -48,14 +48,20 @@ inline std::vector<SourceFile> text_files(const std::filesystem::path& root) {
             continue;
         }
         if (!entry->is_regular_file() || name.ends_with(".swp")) continue;
-        std::ifstream stream(entry->path(), std::ios::binary);
-        std::string text{std::istreambuf_iterator<char>(stream), {}};
-        if (text.find('\0') != std::string::npos) continue;
-        files.push_back(
-            {std::filesystem::relative(entry->path(), root).generic_string(), std::move(text)});
+        paths.push_back(std::filesystem::relative(entry->path(), root).generic_string());
     }
-    std::sort(files.begin(), files.end(),
-              [](const SourceFile& a, const SourceFile& b) { return a.path < b.path; });
+    std::sort(paths.begin(), paths.end());
+    return paths;
+}
+
+/// Those that are text, sorted by path. A file with a zero byte is not text.
+inline std::vector<SourceFile> text_files(const std::filesystem::path& root) {
+    std::vector<SourceFile> files;
+    for (const std::string& path : file_paths(root)) {
+        std::ifstream stream(root / path, std::ios::binary);
+        std::string text{std::istreambuf_iterator<char>(stream), {}};
+        if (text.find('\0') == std::string::npos) files.push_back({path, std::move(text)});
+    }
     return files;
 }
 
@@ -68,6 +74,36 @@ inline bool is_digit_separator(std::string_view text, std::size_t at) {
     return start < at && std::isdigit(static_cast<unsigned char>(text[start])) != 0;
 }
 
+/// Calls comment(from, to) for every comment of a C++ text and literal(from, to) for the inside of
+/// every literal.
+template <class Comment, class Literal>
+void scan_cpp(std::string_view text, const Comment& comment, const Literal& literal) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text.substr(i, 2) == "//") {
+            const std::size_t end = std::min(text.find('\n', i), text.size());
+            comment(i, end);
+            i = end;
+        } else if (text.substr(i, 2) == "/*") {
+            const std::size_t end = std::min(text.find("*/", i + 2), text.size() - 2) + 2;
+            comment(i, end);
+            i = end - 1;
+        } else if (text.substr(i, 2) == "R\"") {
+            const std::size_t open = std::min(text.find('(', i), text.size());
+            std::string close = ")";
+            close.append(text.substr(i + 2, open - i - 2)).append("\"");
+            const std::size_t end = std::min(text.find(close, open), text.size());
+            literal(i + 2, end);
+            i = end + close.size() - 1;
+        } else if (text[i] == '"' || (text[i] == '\'' && !is_digit_separator(text, i))) {
+            std::size_t end = i + 1;
+            while (end < text.size() && text[end] != text[i] && text[end] != '\n')
+                end += text[end] == '\\' ? 2 : 1;
+            literal(i + 1, end);
+            i = end;
+        }
+    }
+}
+
 /// C++ text with comments and the insides of literals blanked; every line and column stays.
 inline std::string code_only(std::string_view text) {
     std::string code(text);
@@ -75,31 +111,25 @@ inline std::string code_only(std::string_view text) {
         for (std::size_t k = from; k < std::min(to, code.size()); ++k)
             if (code[k] != '\n') code[k] = ' ';
     };
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text.substr(i, 2) == "//") {
-            const std::size_t end = std::min(text.find('\n', i), text.size());
-            blank(i, end);
-            i = end;
-        } else if (text.substr(i, 2) == "/*") {
-            const std::size_t end = std::min(text.find("*/", i + 2), text.size() - 2) + 2;
-            blank(i, end);
-            i = end - 1;
-        } else if (text.substr(i, 2) == "R\"") {
-            const std::size_t open = std::min(text.find('(', i), text.size());
-            std::string close = ")";
-            close.append(text.substr(i + 2, open - i - 2)).append("\"");
-            const std::size_t end = std::min(text.find(close, open), text.size());
-            blank(i + 2, end);
-            i = end + close.size() - 1;
-        } else if (text[i] == '"' || (text[i] == '\'' && !is_digit_separator(text, i))) {
-            std::size_t end = i + 1;
-            while (end < text.size() && text[end] != text[i] && text[end] != '\n')
-                end += text[end] == '\\' ? 2 : 1;
-            blank(i + 1, end);
-            i = end;
-        }
-    }
+    scan_cpp(text, blank, blank);
     return code;
+}
+
+/// C++ text with everything but comments blanked; every line and column stays.
+inline std::string comments_only(std::string_view text) {
+    std::string comments(text.size(), ' ');
+    for (std::size_t k = 0; k < text.size(); ++k)
+        if (text[k] == '\n') comments[k] = '\n';
+    scan_cpp(
+        text,
+        [&](std::size_t from, std::size_t to) {
+            to = std::min(to, text.size());
+            std::copy(text.begin() + static_cast<std::ptrdiff_t>(from),
+                      text.begin() + static_cast<std::ptrdiff_t>(to),
+                      comments.begin() + static_cast<std::ptrdiff_t>(from));
+        },
+        [](std::size_t, std::size_t) {});
+    return comments;
 }
 
 }  // namespace grainfield::repository

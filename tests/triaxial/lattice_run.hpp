@@ -22,7 +22,7 @@ inline std::vector<kernels::KernelCase> best_kernels() {
     return best;
 }
 
-/// A config for lattices: quasi-static, the spheres' material that of the paper.
+/// A config for lattices: quasi-static, the spheres' material that of Tran et al.
 inline Config lattice_config(double friction, double stress, double strain_rate, double strain) {
     Config config;
     config.particle.friction_angle = std::atan(friction);

@@ -115,7 +115,7 @@ TEST_P(RandomConfigs, EndWithFiniteResultsOrSayWhyNot) {
         for (const CurvePoint& p : r.curve)
             EXPECT_TRUE(std::isfinite(p.deviator_stress) && std::isfinite(p.volumetric_strain));
         worst_closing = larger(worst_closing, r.energy_closing_error);
-        // Second order in the step: 0.05 % at the paper's case, more where single contacts carry
+        // Second order in the step: 0.05 % at Tran et al.'s case, more where single contacts carry
         // all of the work.
         EXPECT_LT(r.energy_closing_error, 0.05);
         const core::ParticleStore& s = simulation.spheres();

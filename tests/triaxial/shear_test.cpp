@@ -98,7 +98,7 @@ TEST(Shear, HoldsTheConfiningStressAtAnyStiffnessContrast) {
     config.field.stiffness.cov = 2;
     config.triaxial.max_axial_strain = 0.01;
     map_field(config, 3, sample);
-    // 1: the paper's field (local averages of blocks far wider than theta differ little);
+    // 1: Tran et al.'s field (local averages of blocks far wider than theta differ little);
     // 2: independent lognormal blocks of the same COV; 3: every block a hundredth of the next.
     const double spread = std::sqrt(std::log(1 + 2.0 * 2.0));
     const core::RandomStream random(1, core::Stream::perturbation);

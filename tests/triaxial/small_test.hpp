@@ -54,7 +54,7 @@ inline Sample dense_sample(int n, const std::array<std::int32_t, 3>& cells = {2,
     return sample;
 }
 
-/// The paper's material and test with the field's grid over dense_sample().
+/// Tran et al.'s material and test with the field's grid over dense_sample().
 inline Config small_config(const Sample& sample,
                            const std::array<std::int32_t, 3>& cells = {2, 4, 2}) {
     Config config;

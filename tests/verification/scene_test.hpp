@@ -55,7 +55,7 @@ struct SceneResult {
     double step() const { return *file.step; }                              ///< [s]
     double radius(std::size_t i) const { return start.spheres.radius[i]; }  ///< [m]
     double mass(std::size_t i) const;                                       ///< [kg]
-    /// Eq. (4) between two spheres, and between a sphere and a wall [N/m].
+    /// Eq. (4) of Tran et al. between two spheres, and between a sphere and a wall [N/m].
     double pair_stiffness(std::size_t i, std::size_t j) const;
     double wall_stiffness(std::size_t i, std::size_t wall) const;
     double effective_mass(std::size_t i, std::size_t j) const;       ///< [kg]

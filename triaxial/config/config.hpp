@@ -1,6 +1,6 @@
 #pragma once
-// The whole configuration as one aggregate, with the paper's values as defaults (interface.md,
-// "Config keys"). One struct a TOML table.
+// The whole configuration as one aggregate, with Tran et al.'s values as defaults
+// (docs/interface.md, "Config keys"). One struct a TOML table.
 
 #include <cstdint>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-// Every key of a config (interface.md, "Config keys"): path, range, unit, variable.
+// Every key of a config (docs/interface.md, "Config keys"): path, range, unit, variable.
 
 #include <array>
 #include <string_view>
@@ -45,7 +45,7 @@ inline constexpr std::array marginal_names{
     Named<randomfield::MarginalKind>{randomfield::MarginalKind::beta, "beta"},
     Named<randomfield::MarginalKind>{randomfield::MarginalKind::weibull, "weibull"}};
 
-/// All keys in the order of interface.md. They refer to `config`, which must outlive them.
+/// All keys in the order of docs/interface.md. They refer to `config`, which must outlive them.
 Keys config_keys(Config& config);
 
 /// The tables that a scene shares with a config, each with its table's name in the paths.

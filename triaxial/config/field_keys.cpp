@@ -16,8 +16,8 @@ constexpr Range variation{1e-6, 1e3, true, true, "in [1e-6, 1000]"};
 constexpr Range variability{1e-6, 1e6, true, true, "in [1e-6, 1e6]"};
 
 /// The distribution of one property, in the table `path`. The contract's keys come first, those of
-/// Eq. (7) for the friction angle and of Eqs. (8)-(9) for the stiffness. A key that its marginal
-/// has no use for has no effect; `field` says so.
+/// Eq. (7) of Tran et al. for the friction angle and of their Eqs. (8)-(9) for the stiffness. A key
+/// that its marginal has no use for has no effect; `field` says so.
 void add_keys(Keys& keys, randomfield::MarginalOptions& marginal, const std::string& path,
               const std::string& unit, const Range& range, const Range& of_mean) {
     // A structured binding on purpose, see config_keys.cpp.

@@ -12,7 +12,7 @@
 
 namespace grainfield::triaxial {
 
-/// The paper's case, with the file's values over it and the overrides (`key.path=value`) over
+/// Tran et al.'s case, with the file's values over it and the overrides (`key.path=value`) over
 /// those, later ones winning. Throws InputError (file, line or --set, key, value, what is allowed)
 /// and FileError where the file cannot be read.
 Config load_config(const std::optional<std::filesystem::path>& file,

@@ -1,5 +1,5 @@
 #pragma once
-// The file that `simulate` reads: spheres, plane walls, gravity (interface.md, "A scene").
+// The file that `simulate` reads: spheres, plane walls, gravity (docs/interface.md, "A scene").
 
 #include <filesystem>
 #include <optional>

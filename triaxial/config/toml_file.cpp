@@ -27,7 +27,7 @@ std::string trimmed(std::string_view text) {
     return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
 }
 
-/// Words and paths that a shell user would not think to quote: friction, scalar, ./data.csv
+/// Words and paths that a shell user would not think to quote: friction, scalar, ./cpt.csv
 bool is_bare_word(std::string_view text) {
     const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0; };
     return !text.empty() && (is_letter(text[0]) || std::strchr("_./", text[0]) != nullptr) &&

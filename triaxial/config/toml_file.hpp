@@ -30,7 +30,7 @@ toml::table read_toml_file(const std::filesystem::path& file);
 /// "--set key.path=value", also where it has a table and `root` something else.
 void put_override(toml::table& root, const std::string& setting);
 
-/// Where a value was written: "paper.toml:12" or "--set key=value". Copies of a node forget it.
+/// Where a value was written: "config.toml:12" or "--set key=value". Copies of a node forget it.
 std::string origin_of(const toml::node& node);
 
 /// Values by dotted path; they stand in the document that they were found in.

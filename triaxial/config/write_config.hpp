@@ -7,8 +7,8 @@
 
 namespace grainfield::triaxial {
 
-/// All keys with their values and units, in the order of interface.md; optional keys that are unset
-/// as comments. For any valid config, load_config gives back the same values, bit for bit.
+/// All keys with their values and units, in the order of docs/interface.md; optional keys that are
+/// unset as comments. For any valid config, load_config gives back the same values, bit for bit.
 std::string write_config(const Config& config);
 
 }  // namespace grainfield::triaxial

@@ -16,7 +16,8 @@ packing::Material packing_material(const Config& config);
 packing::Packing pack(const Config& config, core::Monitor& monitor,
                       core::Checkpoint* checkpoint = nullptr);
 
-/// The contents of P.json (interface.md), with the grading and the stress profile for the report.
+/// The contents of P.json (docs/interface.md), with the grading and the stress profile for the
+/// report.
 nlohmann::json packing_json(const packing::Packing& packing, double wall_seconds);
 
 /// P.json beside a packing file: the same name with the suffix .json.

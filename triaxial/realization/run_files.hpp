@@ -1,5 +1,5 @@
 #pragma once
-// The files of a triaxial run (interface.md): summary.json, curve.csv, energy.csv, state.h5.
+// The files of a triaxial run (docs/interface.md): summary.json, curve.csv, energy.csv, state.h5.
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>

@@ -11,51 +11,32 @@
 namespace grainfield::triaxial::report {
 namespace {
 
-/// The nine edges of the box in front, and its three sizes along them.
-std::string edges_and_sizes(const core::Box& box, const Camera& camera) {
-    constexpr std::pair<std::size_t, std::size_t> edges[]{{4, 5}, {5, 1}, {6, 7}, {7, 3}, {3, 2},
-                                                          {2, 6}, {4, 6}, {5, 7}, {1, 3}};
-    const auto corner = corners(box);
-    const auto at = [&](const Vec3& p) {
-        return fmt::format("{:.5f},{:.5f}", camera.right(p), camera.up(p));
-    };
-    std::string script;
-    for (const auto& [from, to] : edges)
-        script += fmt::format("set arrow from {} to {} nohead front lw 1 lc rgb '#80384048'\n",
-                              at(corner[from]), at(corner[to]));
-    const Vec3 size = box.size();
-    const auto label = [&](std::size_t from, std::size_t to, char axis, double length,
-                           std::string_view place) {
-        const Vec3 middle = 0.5 * (corner[from] + corner[to]);
-        script += fmt::format("set label '{{/:Italic {}}}  {} m' at {} {} tc rgb '{}'\n", axis,
-                              significant(length, 3), at(middle), place, colour::ink);
-    };
-    label(4, 5, 'x', size.x(), "right offset -0.2,-1.1");
-    label(4, 6, 'y', size.y(), "center rotate by 90 offset -1.4,0");
-    label(5, 1, 'z', size.z(), "left offset 0.6,-1.1");
-    return script;
-}
+using Pair = std::pair<std::size_t, std::size_t>;  // corners of the box
+constexpr Pair front_edges[]{{4, 5}, {5, 1}, {6, 7}, {7, 3}, {3, 2},
+                             {2, 6}, {4, 6}, {5, 7}, {1, 3}};
+constexpr Pair sized_edges[]{{4, 5}, {4, 6}, {5, 1}};  // along x, y and z
 
 /// Ticks at 1, 2 and 5 of each decade; decades alone where there are many.
-std::string log_ticks(double lowest, double highest) {
+DataBlock log_ticks(double lowest, double highest) {
     const double decades = std::log10(highest / lowest);
-    std::string ticks;
+    DataBlock ticks;
     for (double power = std::pow(10, std::floor(std::log10(lowest))); power <= highest;
          power *= 10) {
         for (const double digit : {1.0, 2.0, 5.0}) {
             if ((decades > 3 && digit != 1.0) || digit * power < lowest || digit * power > highest)
                 continue;
-            ticks += fmt::format("{}{}", ticks.empty() ? "" : ", ", digit * power);
+            ticks.row(digit * power);
         }
     }
-    return ticks.empty() ? "" : fmt::format("({})", ticks);
+    return ticks;
 }
 
 }  // namespace
 
 BoxFrame box_frame(const core::Box& box, const Camera& camera, const Colouring& colouring) {
+    const auto corner = corners(box);
     double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
-    for (const Vec3& p : corners(box)) {
+    for (const Vec3& p : corner) {
         left = std::min(left, camera.right(p));
         right = std::max(right, camera.right(p));
         bottom = std::min(bottom, camera.up(p));
@@ -76,34 +57,41 @@ BoxFrame box_frame(const core::Box& box, const Camera& camera, const Colouring& 
     frame.size = {width + bar, static_cast<int>((top - bottom) / frame.pixel)};
     const double share = static_cast<double>(width) / (width + bar);
 
-    frame.script = edges_and_sizes(box, camera);
-    frame.script += fmt::format(
-        R"(unset border
-unset tics
-unset grid
-unset key
-set lmargin at screen 0
-set rmargin at screen {share}
-set tmargin at screen 1
-set bmargin at screen 0
-set xrange [{left}:{right}]
-set yrange [{bottom}:{top}]
-set style fill solid noborder
-)",
-        fmt::arg("share", share), fmt::arg("left", left), fmt::arg("right", right),
-        fmt::arg("bottom", bottom), fmt::arg("top", top));
-    if (!colouring.has_scale()) return frame;
-    frame.script += fmt::format(
-        "set palette {}\nset cbrange [{}:{}]\n{}"
-        "set cbtics out scale 0.5 {}\n"
-        "set cblabel '{}' offset 0.8,0\n"
-        "set colorbox user origin screen {},0.3 size screen {},0.4 noborder\n",
-        Colouring::gnuplot_palette(), colouring.lowest(), colouring.highest(),
-        colouring.logarithmic() ? "set logscale cb\n" : "",
-        colouring.logarithmic() ? log_ticks(colouring.lowest(), colouring.highest()) : "",
-        colouring.label(), share + 0.012, 20.0 / (width + bar));
-    frame.scale = fmt::format("'+' using ({}):({}):({}) with points pt 7 ps 0.01 lc palette",
-                              left - extent, bottom - extent, colouring.lowest());
+    DataBlock edges(5), middles(5);
+    const auto add = [&](DataBlock& rows, const Vec3& p) {
+        rows.add(camera.right(p));
+        rows.add(camera.up(p));
+    };
+    for (const auto& [from, to] : front_edges) {
+        add(edges, corner[from]);
+        add(edges, corner[to]);
+        edges.end_row();
+    }
+    for (const auto& [from, to] : sized_edges) {
+        add(middles, 0.5 * (corner[from] + corner[to]));
+        middles.end_row();
+    }
+    const double lowest = colouring.lowest(), highest = colouring.highest();
+    const Vec3 size = box.size();
+    frame.variables = {
+        {"edges", edges},
+        {"middles", middles},
+        {"size_x", significant(size.x(), 3)},
+        {"size_y", significant(size.y(), 3)},
+        {"size_z", significant(size.z(), 3)},
+        {"left", left},
+        {"right", right},
+        {"bottom", bottom},
+        {"top", top},
+        {"share", share},
+        {"has_scale", colouring.has_scale()},
+        {"palette", Colouring::palette()},
+        {"lowest", lowest},
+        {"highest", highest},
+        {"logarithmic", colouring.logarithmic()},
+        {"ticks", colouring.logarithmic() ? log_ticks(lowest, highest) : DataBlock()},
+        {"quantity", colouring.label()},
+        {"bar_width", 20.0 / (width + bar)}};
     return frame;
 }
 

@@ -2,8 +2,6 @@
 // What pictures of a box from outside share: the range of the picture, the box's edges with its
 // sizes, and the scale of the colours.
 
-#include <string>
-
 #include "triaxial/report/colouring.hpp"
 #include "triaxial/report/gnuplot.hpp"
 #include "triaxial/report/sample_view.hpp"
@@ -11,11 +9,9 @@
 namespace grainfield::triaxial::report {
 
 struct BoxFrame {
-    PictureSize size;  ///< of the picture with its scale
-    double pixel = 0;  ///< width of a pixel [m]
-    std::string
-        script;         ///< gnuplot: sets everything up; pictures plot camera coordinates in metres
-    std::string scale;  ///< a clause for the plot command that makes the scale appear; may be empty
+    PictureSize size;            ///< of the picture with its scale
+    double pixel = 0;            ///< width of a pixel [m]
+    GnuplotVariables variables;  ///< for box_frame.gnuplot; plots are in camera coordinates [m]
 };
 
 BoxFrame box_frame(const core::Box& box, const Camera& camera, const Colouring& colouring);

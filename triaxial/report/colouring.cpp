@@ -1,7 +1,5 @@
 #include "triaxial/report/colouring.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -99,7 +97,7 @@ Rgb Colouring::colour(std::size_t sphere) const {
     return from_palette(t);
 }
 
-std::string Colouring::label() const {
+Markup Colouring::label() const {
     switch (by_) {
         case ColourBy::stiffness:
             return "Normal stiffness {/:Italic k}_n (MPa), log scale";
@@ -110,7 +108,7 @@ std::string Colouring::label() const {
         case ColourBy::block:
             break;
     }
-    return {};
+    return "";
 }
 
 std::string Colouring::in_words() const {
@@ -128,11 +126,10 @@ std::string Colouring::in_words() const {
            "(flip technique) can be told apart";
 }
 
-std::string Colouring::gnuplot_palette() {
-    std::string stops;
-    for (const auto& [at, c] : palette)
-        stops += fmt::format("{}{} {} {} {}", stops.empty() ? "" : ", ", at, c.r, c.g, c.b);
-    return fmt::format("model RGB defined ({})", stops);
+DataBlock Colouring::palette() {
+    DataBlock stops;
+    for (const auto& [at, c] : report::palette) stops.row(at, c.r, c.g, c.b);
+    return stops;
 }
 
 }  // namespace grainfield::triaxial::report

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/scene/particle_store.hpp"
+#include "triaxial/report/gnuplot_variables.hpp"
 
 namespace grainfield::triaxial::report {
 
@@ -35,9 +36,9 @@ class Colouring {
     bool logarithmic() const { return by_ == ColourBy::stiffness; }
     double lowest() const { return lowest_; }    ///< in the unit of label()
     double highest() const { return highest_; }  ///< in the unit of label()
-    std::string label() const;                   ///< quantity and unit, gnuplot's enhanced text
+    Markup label() const;                        ///< quantity and unit, gnuplot's enhanced text
     std::string in_words() const;                ///< for a caption
-    static std::string gnuplot_palette();        ///< the body of `set palette`
+    static DataBlock palette();                  ///< share [-], red, green, blue of its stops
 
   private:
     double value(std::size_t sphere) const;

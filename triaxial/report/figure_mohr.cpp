@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include "triaxial/report/figures.hpp"
@@ -12,14 +11,13 @@
 namespace grainfield::triaxial::report {
 namespace {
 
-std::string half_circle(const MohrCircle& circle) {
-    std::string rows;
+void add_half_circle(const MohrCircle& circle, DataBlock& rows) {
     for (int i = 0; i <= 180; ++i) {
         const double angle = i * std::numbers::pi / 180;
-        rows += fmt::format("{} {}\n", 1e-3 * (circle.centre() - circle.radius() * std::cos(angle)),
-                            1e-3 * circle.radius() * std::sin(angle));
+        rows.row(1e-3 * (circle.centre() - circle.radius() * std::cos(angle)),
+                 1e-3 * circle.radius() * std::sin(angle));
     }
-    return rows;
+    rows.end_part();
 }
 
 /// Fixed decimals without a minus before zero: an intercept is small beside what it is told with.
@@ -61,33 +59,21 @@ Figure mohr_figure(const Gnuplot& gnuplot, const MohrCircle& run,
     const Envelope envelope =
         companions.empty() ? envelope_through_origin(run) : fit_envelope(circles);
 
-    std::string rows, plots;
+    DataBlock all, touch;
     double right = 0, highest = 0;
-    for (std::size_t i = 0; i < circles.size(); ++i) {
-        rows += half_circle(circles[i]) + "\n\n";
-        right = std::max(right, 1.08e-3 * (circles[i].centre() + circles[i].radius()));
-        highest = std::max(highest, 1e-3 * circles[i].radius());
-        for (const char* style :
-             {"filledcurves y1=0 fs transparent solid 0.10 noborder", "lines lw 2"})
-            plots += fmt::format("'mohr.dat' index {} with {} lc rgb '{}' notitle, \\\n     ", i,
-                                 style, i == 0 ? colour::main : colour::soft);
+    for (const MohrCircle& circle : circles) {
+        add_half_circle(circle, all);
+        right = std::max(right, 1.08e-3 * (circle.centre() + circle.radius()));
+        highest = std::max(highest, 1e-3 * circle.radius());
     }
-    gnuplot.data("mohr.dat", rows);
 
     const double slope = std::tan(envelope.friction_angle);
     const double c = 1e-3 * envelope.intercept;
     const double left = std::min(0.0, -c / slope);
-    std::string labels;
-    if (companions.empty()) {  // more circles leave no room for them
-        for (const auto& [name, stress] :
-             {std::pair{"σ_3", run.confining_stress},
-              std::pair{"σ_1", run.confining_stress + run.deviator_stress}})
-            labels += fmt::format("set label '{} = {}' at {},0 right offset -0.5,0.7 tc rgb '{}'\n",
-                                  name, significant(1e-3 * stress), 1e-3 * stress, colour::ink);
-    }
     const double sine = std::sin(envelope.friction_angle);
-    const double touch_s = 1e-3 * (run.centre() - run.radius() * sine);
-    const double touch_t = 1e-3 * run.radius() * std::cos(envelope.friction_angle);
+    touch.row(1e-3 * (run.centre() - run.radius() * sine),
+              1e-3 * run.radius() * std::cos(envelope.friction_angle));
+    const double minor = run.confining_stress, major = minor + run.deviator_stress;
 
     const double bottom = std::min(0.0, 1.05 * c);
     const double top = std::max(1.15 * highest, 1.02 * (c + slope * right));
@@ -95,33 +81,26 @@ Figure mohr_figure(const Gnuplot& gnuplot, const MohrCircle& run,
     // Both axes have one scale: the picture is as high as that needs.
     const double plot_height = std::min(0.84 * 520 * (top - bottom) / (right - left), 600.0);
     const double height = plot_height + 12 + 58;
-    const std::string script = fmt::format(
-        R"(set lmargin at screen 0.135
-set rmargin at screen 0.975
-set tmargin at screen {upper}
-set bmargin at screen {lower}
-set size ratio -1
-set xrange [{left}:{right}]
-set yrange [{bottom}:{top}]
-set xlabel 'Normal stress σ (kPa)' offset 0,0.3
-set ylabel 'Shear stress τ (kPa)' offset 0.5,0
-set key top left reverse Left
-{labels}
-$touch << EOD
-{touch_s} {touch_t}
-EOD
-plot {plots}[{left}:{right}] {c} + {slope}*x with lines lw 1.6 lc rgb '{contrast}' title 'τ = {c_text} + σ tan {phi}°', \
-     $touch with points pt 7 ps 0.6 lc rgb '{contrast}' notitle
-)",
-        fmt::arg("left", left), fmt::arg("right", right), fmt::arg("bottom", bottom),
-        fmt::arg("top", top), fmt::arg("upper", 1 - 12 / height), fmt::arg("lower", 58 / height),
-        fmt::arg("labels", labels), fmt::arg("touch_s", touch_s), fmt::arg("touch_t", touch_t),
-        fmt::arg("plots", plots), fmt::arg("c", c), fmt::arg("slope", slope),
-        fmt::arg("contrast", colour::contrast),
-        fmt::arg("c_text", companions.empty() ? "0" : fixed(c, 2)),
-        fmt::arg("phi", significant(degrees(envelope.friction_angle), 3)));
-    return {gnuplot.svg("mohr", "Mohr circles at peak strength with the failure envelope",
-                        {520, static_cast<int>(height)}, script),
+    return {gnuplot.svg("figure_mohr", "mohr",
+                        "Mohr circles at peak strength with the failure envelope",
+                        {520, static_cast<int>(height)},
+                        {{"circles", all},
+                         {"circles", circles.size()},
+                         {"touch", touch},
+                         {"left", left},
+                         {"right", right},
+                         {"bottom", bottom},
+                         {"top", top},
+                         {"upper", 1 - 12 / height},
+                         {"lower", 58 / height},
+                         {"intercept", c},
+                         {"slope", slope},
+                         {"minor", 1e-3 * minor},
+                         {"minor_text", significant(1e-3 * minor)},
+                         {"major", 1e-3 * major},
+                         {"major_text", significant(1e-3 * major)},
+                         {"intercept_text", companions.empty() ? "0" : fixed(c, 2)},
+                         {"angle_text", significant(degrees(envelope.friction_angle), 3)}}),
             caption_text(envelope, run, circles.size())};
 }
 

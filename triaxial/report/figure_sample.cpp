@@ -19,10 +19,9 @@ struct Glow {
 constexpr Glow glows[]{{0.72, 0.14, 0.10}, {0.46, 0.28, 0.22}, {0.22, 0.40, 0.42}};
 
 /// Circles of one sphere from back to front: outline, body, glows.
-void draw(const Disc& disc, const Rgb& colour, double pixel, std::string& rows) {
+void draw(const Disc& disc, const Rgb& colour, double pixel, DataBlock& discs) {
     const auto circle = [&](double x, double y, double radius, const Rgb& c) {
-        fmt::format_to(std::back_inserter(rows), "{:.4f} {:.4f} {:.4f} {}\n", x, y, radius,
-                       c.packed());
+        discs.row(x, y, radius, c.packed());
     };
     const Rgb lit = colour.times(disc.light);
     circle(disc.x, disc.y, disc.radius, lit.mixed(black, 0.62));
@@ -35,16 +34,13 @@ void draw(const Disc& disc, const Rgb& colour, double pixel, std::string& rows) 
 std::string picture(const Gnuplot& gnuplot, const RunFolder& run, ColourBy by, int number) {
     const Camera camera;
     const Colouring colouring(run.spheres, by);
-    const BoxFrame frame = box_frame(run.box, camera, colouring);
-    std::string rows;
+    BoxFrame frame = box_frame(run.box, camera, colouring);
+    DataBlock discs(4);
     for (const Disc& disc : visible_discs(run.spheres, run.box, camera))
-        draw(disc, colouring.colour(disc.sphere), frame.pixel, rows);
-    gnuplot.data("spheres.dat", rows);
-    const std::string script =
-        frame.script +
-        fmt::format("plot 'spheres.dat' using 1:2:3:4 with circles lc rgb variable{}\n",
-                    frame.scale.empty() ? "" : ", " + frame.scale);
-    const std::string png = gnuplot.png(fmt::format("sample_{}", number), frame.size, script);
+        draw(disc, colouring.colour(disc.sphere), frame.pixel, discs);
+    frame.variables.emplace_back("discs", discs);
+    const std::string png =
+        gnuplot.png("figure_sample", fmt::format("sample_{}", number), frame.size, frame.variables);
     return fmt::format(
         "<img alt=\"The final sample seen from outside, {}\" width=\"{}\" height=\"{}\" "
         "src=\"data:image/png;base64,{}\">",

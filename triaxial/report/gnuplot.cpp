@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <stdexcept>
 #include <system_error>
 
 #include "core/base/errors.hpp"
@@ -19,20 +20,6 @@
 
 namespace grainfield::triaxial::report {
 namespace {
-
-/// What every figure has in common.
-std::string preamble() {
-    return fmt::format(
-        "set encoding utf8\n"
-        "set border 3 lc rgb '{muted}' lw 1\n"
-        "set tics nomirror out scale 0.6 textcolor rgb '{ink}'\n"
-        "set grid lc rgb '{grid}' lw 1 lt 1\n"
-        "set key textcolor rgb '{ink}' samplen 2 spacing 1.25\n"
-        "set xlabel textcolor rgb '{ink}'\n"
-        "set ylabel textcolor rgb '{ink}'\n",
-        fmt::arg("muted", colour::muted), fmt::arg("ink", colour::ink),
-        fmt::arg("grid", colour::grid));
-}
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
     for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
@@ -57,34 +44,43 @@ std::string to_element(std::string svg, std::string_view id, std::string_view ti
 
 }  // namespace
 
-Gnuplot::Gnuplot() {
+Gnuplot::Folder::Folder() {
     std::error_code error;
     const auto base = std::filesystem::temp_directory_path(error);
     std::string name = ((error ? "/tmp" : base) / "grainfield-report-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr)
         throw FileError(fmt::format("{}: {}", name, std::strerror(errno)));
-    folder_ = name;
+    path = name;
 }
 
-Gnuplot::~Gnuplot() {
+Gnuplot::Folder::~Folder() {
     std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
+    std::filesystem::remove_all(path, ignored);
 }
 
-void Gnuplot::data(std::string_view name, std::string_view text) const {
-    core::write_file_atomically(folder_ / name, text);
+Gnuplot::Gnuplot(std::span<const GnuplotTemplate> more) {
+    for (const auto& templates : {gnuplot_templates(), more})
+        for (const auto& [name, text] : templates)
+            core::write_file_atomically(folder_.path / fmt::format("{}.gnuplot", name), text);
 }
 
-std::string Gnuplot::run(std::string_view id, std::string_view script) const {
+std::string Gnuplot::run(std::string_view figure, std::string_view id, std::string_view terminal,
+                         const GnuplotVariables& variables) const {
+    if (!std::filesystem::exists(folder_.path / fmt::format("{}.gnuplot", figure)))
+        throw std::out_of_range(fmt::format("no template '{}.gnuplot'", figure));
     const std::string script_file = fmt::format("{}.gp", id);
     const std::string log_file = fmt::format("{}.log", id);
-    data(script_file, script);
+    std::string script =
+        fmt::format("set terminal {}\nset output '{}.out'\nload 'style.gnuplot'\n", terminal, id);
+    for (const GnuplotVariable& variable : variables) script += variable.definition;
+    script += fmt::format("load '{}.gnuplot'\n", figure);
+    core::write_file_atomically(folder_.path / script_file, script);
 
     std::string program = "gnuplot", defaults = "-d", argument = script_file;  // -d: no ~/.gnuplot
     const std::array<char*, 4> arguments{program.data(), defaults.data(), argument.data(), nullptr};
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addchdir_np(&actions, folder_.c_str());
+    posix_spawn_file_actions_addchdir_np(&actions, folder_.path.c_str());
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log_file.c_str(),
                                      O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -102,28 +98,26 @@ std::string Gnuplot::run(std::string_view id, std::string_view script) const {
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    const auto output = folder_ / fmt::format("{}.out", id);
+    const auto output = folder_.path / fmt::format("{}.out", id);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || !std::filesystem::exists(output))
         throw FileError(fmt::format("gnuplot failed on figure '{}': {}", id,
-                                    core::read_whole_file(folder_ / log_file)));
+                                    core::read_whole_file(folder_.path / log_file)));
     return core::read_whole_file(output);
 }
 
-std::string Gnuplot::svg(std::string_view id, std::string_view title, PictureSize size,
-                         std::string_view script) const {
-    const std::string head = fmt::format(
-        "set terminal svg enhanced dynamic size {},{} font 'Helvetica,13' name '{}'\n"
-        "set output '{}.out'\n",
-        size.width, size.height, id, id);
-    return to_element(run(id, head + preamble() + std::string(script)), id, title);
+std::string Gnuplot::svg(std::string_view figure, std::string_view id, std::string_view title,
+                         PictureSize size, const GnuplotVariables& variables) const {
+    const std::string terminal =
+        fmt::format("svg enhanced dynamic size {},{} font 'Helvetica,13' name '{}'", size.width,
+                    size.height, id);
+    return to_element(run(figure, id, terminal, variables), id, title);
 }
 
-std::string Gnuplot::png(std::string_view id, PictureSize size, std::string_view script) const {
-    const std::string head = fmt::format(
-        "set terminal pngcairo enhanced size {},{} font 'sans,17'\n"
-        "set output '{}.out'\n",
-        size.width, size.height, id);
-    return run(id, head + preamble() + std::string(script));
+std::string Gnuplot::png(std::string_view figure, std::string_view id, PictureSize size,
+                         const GnuplotVariables& variables) const {
+    const std::string terminal =
+        fmt::format("pngcairo enhanced size {},{} font 'sans,17'", size.width, size.height);
+    return run(figure, id, terminal, variables);
 }
 
 }  // namespace grainfield::triaxial::report

@@ -1,22 +1,16 @@
 #pragma once
-// gnuplot as a child process: scripts and data go by file in a temporary folder, pictures come
-// back.
+// gnuplot as a child process in a temporary folder: it draws a .gnuplot file with what that is
+// given, and the picture comes back.
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
-namespace grainfield::triaxial::report {
+#include "triaxial/report/gnuplot_template.hpp"
+#include "triaxial/report/gnuplot_variables.hpp"
 
-/// Colours of all figures: dark ink, one main colour, one contrast, greys.
-namespace colour {
-inline constexpr std::string_view ink = "#243039";
-inline constexpr std::string_view muted = "#66727c";
-inline constexpr std::string_view grid = "#e6eaed";
-inline constexpr std::string_view main = "#1d4f7c";
-inline constexpr std::string_view contrast = "#b4581d";
-inline constexpr std::string_view soft = "#7fa3bf";
-}  // namespace colour
+namespace grainfield::triaxial::report {
 
 struct PictureSize {
     int width = 640;   ///< [px]
@@ -26,27 +20,31 @@ struct PictureSize {
 /// A temporary folder of its own, removed at the end, in which gnuplot runs.
 class Gnuplot {
   public:
-    /// Throws FileError where the temporary folder cannot be made.
-    Gnuplot();
-    ~Gnuplot();
-    Gnuplot(const Gnuplot&) = delete;
-    Gnuplot& operator=(const Gnuplot&) = delete;
+    /// Knows the templates of triaxial/report/, and `more`. Throws FileError where the temporary
+    /// folder cannot be made.
+    explicit Gnuplot(std::span<const GnuplotTemplate> more = {});
 
-    /// Puts a data file there for the scripts to come. Throws FileError.
-    void data(std::string_view name, std::string_view text) const;
-
-    // Both run one script and throw FileError where gnuplot is not installed or fails, with what
-    // it said.
+    // Both draw a template with these variables. They throw FileError where gnuplot is not
+    // installed or fails, with what it said, and std::out_of_range where there is no such template.
     /// An <svg> element to stand in a page: ids carry `id`, `title` is its text for screen readers.
-    std::string svg(std::string_view id, std::string_view title, PictureSize size,
-                    std::string_view script) const;
+    std::string svg(std::string_view figure, std::string_view id, std::string_view title,
+                    PictureSize size, const GnuplotVariables& variables) const;
     /// The bytes of a PNG file.
-    std::string png(std::string_view id, PictureSize size, std::string_view script) const;
+    std::string png(std::string_view figure, std::string_view id, PictureSize size,
+                    const GnuplotVariables& variables) const;
 
   private:
-    std::string run(std::string_view id, std::string_view script) const;
+    std::string run(std::string_view figure, std::string_view id, std::string_view terminal,
+                    const GnuplotVariables& variables) const;
 
-    std::filesystem::path folder_;
+    struct Folder {
+        Folder();
+        ~Folder();
+        Folder(const Folder&) = delete;
+        Folder& operator=(const Folder&) = delete;
+        std::filesystem::path path;
+    };
+    Folder folder_;
 };
 
 }  // namespace grainfield::triaxial::report

@@ -54,7 +54,7 @@ std::string inertia_in_words(double number) {
 
 Table results_table(const RunFolder& run) {
     const KeyResults& r = run.results;
-    // physics.md, "Loading rate, step and mass scaling": 1 to 2 % of a peak is chaos.
+    // docs/method.md, section 8: 1 to 2 % of a peak is chaos.
     const std::string chaos = "± 1–2 % by chaos in a single realization (project’s measurements)";
     Builder b("Results", &run.summary);
     b.row(r.peak_found ? "Peak deviator stress <i>q</i>" : "Largest deviator stress <i>q</i>",

@@ -13,7 +13,7 @@ struct ContactRow {
     double overlap;           ///< [m]
     double normal_force;      ///< compression positive [N]
     Vec3 shear_force;         ///< on i [N]
-    double normal_stiffness;  ///< K_n of Eq. (4) [N/m]
+    double normal_stiffness;  ///< K_n, Eq. (4) of Tran et al. [N/m]
 };
 
 /// Contacts between spheres sorted by i, then j; then those with walls, by wall, then sphere.

@@ -1,5 +1,5 @@
 #pragma once
-// The files of a scene's run (interface.md, "Files").
+// The files of a scene's run (docs/interface.md, "Files").
 
 #include <filesystem>
 #include <optional>

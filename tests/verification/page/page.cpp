@@ -26,7 +26,7 @@ constexpr const char* opening =
     "worst of the reference kernels and of all instruction sets in double precision, `mixed` the\n"
     "worst of all instruction sets in mixed precision; worst is nearest to the tolerance. Where a\n"
     "test checks the same thing several times (times, spheres, sizes) the worst is shown too.\n"
-    "Units are SI.\n\n";
+    "Units are SI. Eqs. (n) are those of docs/method.md.\n\n";
 
 /// A row with the worst record of each precision.
 struct Row {

@@ -11,9 +11,10 @@ namespace grainfield::verify {
 /// Scene (or heading) and quantity.
 using RowName = std::pair<std::string, std::string>;
 
-/// The page of all records (*.json, see record.hpp) in `records`. Of the kernels of a precision the
-/// row shows the one that comes nearest to its tolerance. `scenes` is the folder of the committed
-/// scenes. Throws std::runtime_error where there are no records or one cannot be read.
+/// The page of all records (*.json, see tests/verification/record.hpp) in `records`. Of the kernels
+/// of a precision the row shows the one that comes nearest to its tolerance. `scenes` is the folder
+/// of the committed scenes. Throws std::runtime_error where there are no records or one cannot be
+/// read.
 std::string page_of(const std::filesystem::path& records, const std::filesystem::path& scenes);
 
 /// The rows that a page has.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "triaxial/campaign/row.hpp"
+#include "triaxial/report/gnuplot_variables.hpp"
 
 namespace grainfield::triaxial::report {
 
@@ -40,9 +41,9 @@ CampaignData read_campaign_data(const std::filesystem::path& folder);
 
 /// A quantity of a row that is looked at.
 struct Quantity {
-    const char* id;      ///< for the names of figures
-    const char* name;    ///< HTML
-    const char* symbol;  ///< for gnuplot's enhanced text
+    const char* id;    ///< for the names of figures
+    const char* name;  ///< HTML
+    Markup symbol;
     const char* unit;
     double scale;  ///< from SI to the unit
     double triaxial::Row::*value;

@@ -35,21 +35,22 @@ struct Trend {
     std::vector<Point> points;
 };
 
+/// A key's name and unit for an axis, and the factor from SI.
+struct AxisName {
+    std::string text;
+    double scale = 1;
+    std::optional<Markup> markup = std::nullopt;  ///< the same, where it is ours
+};
+AxisName axis_name(const std::string& key);
+
 /// Mean and deviation against a key that varies, with 95 % intervals and the deterministic values
 /// (Figs. 9, 10, 13 and 14); `q` is the quantity's number.
 Figure trend_figure(const Gnuplot& gnuplot, const std::string& id, std::size_t q,
-                    const std::string& label, std::span<const Trend> trends,
+                    const AxisName& axis, std::span<const Trend> trends,
                     const CampaignStatistics& all);
 
 /// The trends over a config key: cases that agree in all other keys make a line. Only keys with a
 /// number (of a correlation length: that in y) have any.
 std::vector<Trend> trends_over(const CampaignData& data, const std::string& key);
-
-/// A key's name and unit for an axis, gnuplot's enhanced text, and the factor from SI.
-struct AxisName {
-    std::string text;
-    double scale = 1;
-};
-AxisName axis_name(const std::string& key);
 
 }  // namespace grainfield::triaxial::report

@@ -81,7 +81,7 @@ void add_trends(Page& page, const Gnuplot& gnuplot, const CampaignData& data,
         if (trends.empty()) continue;
         for (std::size_t q = 0; q < std::size(quantities); ++q)
             figures.push_back(trend_figure(gnuplot, fmt::format("trend{}{}", k, quantities[q].id),
-                                           q, axis_name(data.varying[k]).text, trends, all));
+                                           q, axis_name(data.varying[k]), trends, all));
     }
     if (figures.empty()) return;
     page.section("Over the cases");

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <limits>
 #include <map>
 
 #include "core/files/text_file.hpp"
@@ -28,24 +28,16 @@ std::string short_name(const std::string& key) {
     return key.substr(key.rfind('.') + 1);
 }
 
-/// Text between gnuplot's single quotes; TOML's own quotes are left out.
-std::string quoted(std::string text) {
-    std::erase(text, '"');
-    for (std::size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 2)
-        text.insert(at, 1, '\'');
-    return "'" + text + "'";
-}
-
-constexpr std::array line_colours{colour::main,  colour::contrast, std::string_view("#3c7a4e"),
-                                  colour::muted, colour::soft,     std::string_view("#8a5a9e")};
-
 }  // namespace
 
 AxisName axis_name(const std::string& key) {
-    if (key == "field.stiffness.cov") return {"COV of k_n (-)"};
-    if (key == "field.correlation_length") return {"Correlation length θ_y (m)"};
-    if (key == "triaxial.confining_stress") return {"Confining stress σ_3 (kPa)", 1e-3};
-    if (key == "particle.friction_angle") return {"Friction angle φ (rad)"};
+    const auto known = [](Markup markup, double scale = 1) -> AxisName {
+        return {std::string(markup.text), scale, markup};
+    };
+    if (key == "field.stiffness.cov") return known("COV of k_n (-)");
+    if (key == "field.correlation_length") return known("Correlation length θ_y (m)");
+    if (key == "triaxial.confining_stress") return known("Confining stress σ_3 (kPa)", 1e-3);
+    if (key == "particle.friction_angle") return known("Friction angle φ (rad)");
     std::string text = key;
     std::replace(text.begin(), text.end(), '_', ' ');
     return {text};
@@ -79,61 +71,41 @@ std::vector<Trend> trends_over(const CampaignData& data, const std::string& key)
 }
 
 Figure trend_figure(const Gnuplot& gnuplot, const std::string& id, std::size_t q,
-                    const std::string& label, std::span<const Trend> trends,
+                    const AxisName& axis, std::span<const Trend> trends,
                     const CampaignStatistics& all) {
     const Quantity& quantity = quantities[q];
-    std::string means, deviations;
+    DataBlock rows;
+    std::vector<std::string> names;
     double least = 1e300, most = -1e300;
-    for (std::size_t t = 0; t < trends.size(); ++t) {
-        std::string rows;
-        bool deterministic = false;
-        for (const Trend::Point& point : trends[t].points) {
+    bool deterministic = false;
+    for (const Trend& trend : trends) {
+        for (const Trend::Point& point : trend.points) {
             const CaseStatistics& s = all[point.case_index][q];
             const double deviation = *s.deviation;
             const auto interval =
                 s.deviation_interval.value_or(statistics::Interval{deviation, deviation});
             deterministic |= s.deterministic.has_value();
-            rows +=
-                fmt::format("{} {} {} {} {} {} {} {}\n", point.x, *s.mean, s.mean_interval->lower,
-                            s.mean_interval->upper, deviation, interval.lower, interval.upper,
-                            s.deterministic ? fmt::format("{}", *s.deterministic) : "NaN");
+            rows.row(point.x, *s.mean, s.mean_interval->lower, s.mean_interval->upper, deviation,
+                     interval.lower, interval.upper,
+                     s.deterministic.value_or(std::numeric_limits<double>::quiet_NaN()));
             least = std::min(least, point.x);
             most = std::max(most, point.x);
         }
-        const std::string file = fmt::format("{}-{}.dat", id, t);
-        gnuplot.data(file, rows);
-        const auto line = line_colours[t % line_colours.size()];
-        const std::string title = trends[t].name.empty() ? "mean" : trends[t].name;
-        means += fmt::format(
-            "{}'{}' using 1:2:3:4 with yerrorlines pt 7 ps 0.6 lw 1.6 lc rgb '{}' title {}",
-            t == 0 ? "" : ", \\\n     ", file, line, quoted(title));
-        if (deterministic)
-            means += fmt::format(
-                ", \\\n     '{}' using 1:8 with lines dt 2 lw 1.2 lc rgb '{}' title '{}'", file,
-                line, t == 0 ? "deterministic" : "");
-        deviations += fmt::format(
-            "{}'{}' using 1:5:6:7 with yerrorlines pt 7 ps 0.6 lw 1.6 lc rgb '{}' notitle",
-            t == 0 ? "" : ", \\\n     ", file, line);
+        rows.end_part();
+        std::string name = trend.name.empty() ? "mean" : trend.name;
+        std::erase(name, '"');  // TOML's own
+        names.push_back(std::move(name));
     }
     const bool wide = least > 0 && most / least > 20;
-    const std::string script = fmt::format(
-        R"(set multiplot layout 1,2
-set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05
-{log}
-set xlabel '{label}' offset 0,0.3
-set key noenhanced above left font ',11' maxrows 6
-set ylabel 'Mean of {symbol} ({unit})' offset 0.5,0
-plot {means}
-set offsets graph 0.05, graph 0.05, graph 0.05, 0
-set yrange [0:*]
-set ylabel 'Standard deviation of {symbol} ({unit})' offset 0.5,0
-plot {deviations}
-unset multiplot
-)",
-        fmt::arg("log", wide ? "set logscale x" : ""), fmt::arg("label", label),
-        fmt::arg("symbol", quantity.symbol), fmt::arg("unit", quantity.unit),
-        fmt::arg("means", means), fmt::arg("deviations", deviations));
-    return {gnuplot.svg(id, "Mean and deviation against " + label, {1000, 380}, script),
+    return {gnuplot.svg("figure_trend", id, "Mean and deviation against " + axis.text, {1000, 380},
+                        {{"trends", rows},
+                         {"name", names},
+                         {"has_deterministic", deterministic},
+                         {"wide", wide},
+                         axis.markup ? GnuplotVariable("axis", *axis.markup)
+                                     : GnuplotVariable("axis", axis.text),
+                         {"symbol", quantity.symbol},
+                         {"unit", quantity.unit}}),
             fmt::format("Mean and standard deviation of the {} with 95 % intervals (Student’s t; "
                         "bootstrap); dashed: the deterministic runs.",
                         quantity.name)};

@@ -14,9 +14,9 @@ std::string property_name(const std::optional<randomfield::Property>& property);
 
 /// What a property is divided by in figures and tables, and the unit that gives: rad, MPa.
 struct DisplayUnit {
-    double size = 1;    ///< [rad or Pa]
-    std::string name;   ///< "rad"
-    std::string label;  ///< quantity and unit, gnuplot's enhanced text
+    double size = 1;   ///< [rad or Pa]
+    std::string name;  ///< "rad"
+    Markup label;      ///< quantity and unit
 };
 DisplayUnit display_unit(const std::optional<randomfield::Property>& property);
 
@@ -42,7 +42,7 @@ Figure variance_figure(const Gnuplot& gnuplot, const std::string& id,
 /// Slices x-y of a column of cells at up to six z, in one picture.
 Figure slices_figure(const Gnuplot& gnuplot, const std::string& id,
                      const randomfield::GridSpec& grid, std::span<const double> values,
-                     const std::string& label, const std::string& caption);
+                     Markup label, const std::string& caption);
 
 /// The blocks from outside, coloured by their property (the paper's Fig. 4).
 Figure blocks_figure(const Gnuplot& gnuplot, const std::string& id,

@@ -36,35 +36,34 @@ struct Face {
 };
 constexpr Face faces[]{{0, 0.86}, {1, 1.0}, {2, 0.95}};  // right, top, front, as sample_view.cpp
 
-std::string polygon(const Camera& camera, const Vec3& lower, const Vec3& size, const Face& face,
-                    const Rgb& colour) {
+/// Corners and colour of a cell's face.
+void add_face(const Camera& camera, const Vec3& lower, const Vec3& size, const Face& face,
+              const Rgb& colour, DataBlock& rows) {
     const Eigen::Index u = (face.axis + 1) % 3, v = (face.axis + 2) % 3;
-    std::string text = "set object polygon from ";
-    constexpr double corner[][2]{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
-    bool first = true;
+    constexpr double corner[][2]{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     for (const auto& [a, b] : corner) {
         Vec3 p = lower;
         p[face.axis] += size[face.axis];
         p[u] += a * size[u];
         p[v] += b * size[v];
-        text += fmt::format("{}{:.5f},{:.5f}", first ? "" : " to ", camera.right(p), camera.up(p));
-        first = false;
+        rows.add(camera.right(p));
+        rows.add(camera.up(p));
     }
-    return fmt::format("{} fc rgb '#{:06x}' fs solid border lc rgb '#a0384048' lw 0.6\n", text,
-                       colour.times(face.light).packed());
+    rows.add(colour.times(face.light).packed());
+    rows.end_row();
 }
 
 }  // namespace
 
 Figure slices_figure(const Gnuplot& gnuplot, const std::string& id, const GridSpec& grid,
-                     std::span<const double> values, const std::string& label,
-                     const std::string& caption) {
+                     std::span<const double> values, Markup label, const std::string& caption) {
     const auto [nx, ny, nz] = grid.cells;
     const Vec3& edge = grid.cell_size;
     const double width = nx * edge.x(), height = ny * edge.y();
     const std::int32_t panels = std::min(nz, 6);
     const double pace = width * 1.12;
-    std::string rows, script;
+    DataBlock rows;
+    std::vector<double> z;
     for (std::int32_t panel = 0; panel < panels; ++panel) {
         const std::int32_t k = panels == 1 ? 0 : panel * (nz - 1) / (panels - 1);
         for (std::int32_t j = 0; j < ny; ++j)
@@ -72,51 +71,30 @@ Figure slices_figure(const Gnuplot& gnuplot, const std::string& id, const GridSp
                 const double x = panel * pace + i * edge.x(), y = j * edge.y();
                 const double value = values[grid.index(i, j, k)];
                 if (std::isnan(value)) continue;
-                rows += fmt::format("{} {} {} {} {} {} {}\n", x + edge.x() / 2, y + edge.y() / 2, x,
-                                    x + edge.x(), y, y + edge.y(), value);
+                rows.row(x + edge.x() / 2, y + edge.y() / 2, x, x + edge.x(), y, y + edge.y(),
+                         value);
             }
-        script += fmt::format(
-            "set label '{{/:Italic z}} = {:.4g} m' at {},{} center offset 0,0.8 tc rgb '{}'\n",
-            (k + 0.5) * edge.z(), panel * pace + width / 2, height, colour::ink);
-        script += fmt::format(
-            "set label '{{/:Italic x}} 0 … {:.4g} m' at {},0 center offset 0,-0.9 tc rgb '{}'\n",
-            width, panel * pace + width / 2, colour::ink);
+        z.push_back((k + 0.5) * edge.z());
     }
-    gnuplot.data(id + ".dat", rows);
     const double total = pace * panels - 0.12 * width;
     // To scale, unless the panels would be too narrow for their labels, too flat or too tall [px].
     const double pixels = std::clamp(420 * total / height, 175.0 * panels, 1300.0);
     const double to_scale = pixels * height / total;
     const double high = std::clamp(to_scale, 115.0, 800.0);
     const PictureSize size{static_cast<int>(pixels) + 320, static_cast<int>(high) + 110};
-    script += fmt::format(
-        R"(set size {ratio}
-unset border
-unset grid
-unset xtics
-set ytics nomirror out scale 0.4
-set ylabel '{{/:Italic y}} (m)' offset 1.5,0
-unset key
-set lmargin at screen {left}
-set rmargin at screen {right}
-set tmargin at screen {top}
-set bmargin at screen {bottom}
-set xrange [0:{total}]
-set yrange [0:{height}]
-set palette {palette}
-set cblabel '{label}' offset 0.8,0
-set colorbox user origin screen {bar},0.2 size screen {bar_width},0.55 noborder
-set style fill solid noborder
-plot '{id}.dat' using 1:2:3:4:5:6:7 with boxxyerror lc palette
-)",
-        fmt::arg("ratio", high == to_scale ? "ratio -1" : "noratio"),
-        fmt::arg("left", 120.0 / size.width), fmt::arg("right", 1.0 - 200.0 / size.width),
-        fmt::arg("bar", 1.0 - 185.0 / size.width), fmt::arg("bar_width", 22.0 / size.width),
-        fmt::arg("bottom", 40.0 / size.height), fmt::arg("top", 1.0 - 55.0 / size.height),
-        fmt::arg("total", total), fmt::arg("height", height),
-        fmt::arg("palette", Colouring::gnuplot_palette()), fmt::arg("label", label),
-        fmt::arg("id", id));
-    return {image(gnuplot.png(id, size, script), size, caption), caption};
+    const std::string png = gnuplot.png("figure_slices", id, size,
+                                        {{"cells", rows},
+                                         {"z", z},
+                                         {"pace", pace},
+                                         {"width", width},
+                                         {"total", total},
+                                         {"height", height},
+                                         {"to_scale", high == to_scale},
+                                         {"pixels_wide", size.width},
+                                         {"pixels_high", size.height},
+                                         {"palette", Colouring::palette()},
+                                         {"quantity", label}});
+    return {image(png, size, caption), caption};
 }
 
 Figure blocks_figure(const Gnuplot& gnuplot, const std::string& id,
@@ -128,8 +106,8 @@ Figure blocks_figure(const Gnuplot& gnuplot, const std::string& id,
     const auto [nx, ny, nz] = grid.cells;
     const core::Box box{Vec3::Zero(), Vec3(nx, ny, nz).cwiseProduct(grid.cell_size)};
     const Camera camera;
-    const BoxFrame frame = box_frame(box, camera, colouring);
-    std::string script = frame.script;
+    BoxFrame frame = box_frame(box, camera, colouring);
+    DataBlock rows(5);
     for (const Face& face : faces) {
         const auto axis = static_cast<std::size_t>(face.axis);
         randomfield::CellCount first{0, 0, 0};
@@ -137,13 +115,14 @@ Figure blocks_figure(const Gnuplot& gnuplot, const std::string& id,
         for (std::int32_t k = first[2]; k < nz; ++k)
             for (std::int32_t j = first[1]; j < ny; ++j)
                 for (std::int32_t i = first[0]; i < nx; ++i)
-                    script += polygon(camera, Vec3(i, j, k).cwiseProduct(grid.cell_size),
-                                      grid.cell_size, face, colouring.colour(grid.index(i, j, k)));
+                    add_face(camera, Vec3(i, j, k).cwiseProduct(grid.cell_size), grid.cell_size,
+                             face, colouring.colour(grid.index(i, j, k)), rows);
     }
-    script += "plot " + frame.scale + "\n";
+    frame.variables.emplace_back("faces", rows);
     const std::string words =
         fmt::format("The blocks of realization 0 from outside, {}", colouring.in_words());
-    return {image(gnuplot.png(id, frame.size, script), frame.size, words), words + "."};
+    const std::string png = gnuplot.png("figure_blocks", id, frame.size, frame.variables);
+    return {image(png, frame.size, words), words + "."};
 }
 
 }  // namespace grainfield::triaxial::report
