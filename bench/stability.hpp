@@ -60,7 +60,7 @@ core::Simulation still_network(core::Scene scene, double contrast);
 /// walls; no sphere moves (stability_rest.cpp).
 core::Simulation settled(const core::Scene& scene);
 
-/// A CSV and the picture of bench/NAME.gnuplot with these variables as NAME.csv and .png in the
+/// A CSV and the picture of the template `name` with these variables, both under that name in the
 /// run's folder.
 void write_results(const StabilityRun& run, std::string_view name, std::string_view csv,
                    triaxial::report::PictureSize size,

@@ -159,8 +159,7 @@ void add_field_command(CommandLine& line) {
         "field", "Draws realizations of the random field on the grid of blocks.",
         "grainfield field --set field.variable=friction --realizations 3 --out field.csv",
         [arguments](Session& session) { run_field(*arguments, session); }, OnSignal::end_at_once);
-    command.add("config", arguments->config,
-                "Config (TOML); without one the case of docs/method.md");
+    command.add("config", arguments->config, "Config (TOML); without one the case of Tran et al.");
     command.add("--realizations", arguments->realizations,
                 "How many, 1 unless given; with --verify 2000, at least 100");
     command

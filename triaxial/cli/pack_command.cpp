@@ -85,8 +85,7 @@ void add_pack_command(CommandLine& line) {
         "sample settle under gravity. Writes the spheres and, beside them, a .json.",
         "grainfield pack --set packing.spheres=351 --out P.h5",
         [arguments](Session& session) { run_pack(*arguments, session); });
-    command.add("config", arguments->config,
-                "Config (TOML); without one the case of docs/method.md");
+    command.add("config", arguments->config, "Config (TOML); without one the case of Tran et al.");
     command.add("--out", arguments->out, "File to write: .h5 (ParaView), .csv, .data or .txt")
         .required();
     arguments->checkpoints.add_to(command);

@@ -213,8 +213,7 @@ void add_triaxial_command(CommandLine& line) {
                  "grainfield triaxial --packing P.h5 --set field.variable=stiffness --realization "
                  "7 --out run7",
                  [arguments](Session& session) { run_triaxial(*arguments, session); });
-    command.add("config", arguments->config,
-                "Config (TOML); without one the case of docs/method.md");
+    command.add("config", arguments->config, "Config (TOML); without one the case of Tran et al.");
     command.add("--packing", arguments->packing,
                 "Packing to start from, .h5 or .csv; without one it is made");
     command.add("--realization", arguments->realization,
