@@ -9,6 +9,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/files/hdf5_reader.hpp"
+#include "core/files/sphere_checks.hpp"
 #include "core/files/sphere_file.hpp"
 #include "core/files/sphere_formats.hpp"
 #include "core/files/table_info.hpp"
@@ -72,8 +73,9 @@ std::string json_lines(const nlohmann::json& json) {
     return text;
 }
 
-std::string describe_spheres(const SphereFile& file) {
+std::string describe_spheres(const SphereFile& file, const fs::path& path) {
     const ParticleStore& s = file.spheres;
+    check_spheres(s, path.string(), file.lines);  // as everybody who reads spheres
     std::string text = fmt::format("sphere file: {} spheres", s.size());
     if (!file.kind.empty()) text += fmt::format(", {}", file.kind);
     if (!file.producer.empty()) text += fmt::format(", by {}", file.producer);
@@ -88,6 +90,7 @@ std::string describe_spheres(const SphereFile& file) {
         text += fmt::format("porosity in the box: {:.4f}\n", 1.0 - solid / file.box->volume());
     if (file.has_block) text += blocks_text(s);
     text += columns_text(file);
+    for (const std::string& note : file.notes) text += fmt::format("note: {}\n", note);
     for (const auto& [name, array] : file.extra)
         text += fmt::format("extra: {}, {} values\n", name, array.values.size());
     if (!file.attributes.empty())
@@ -97,7 +100,7 @@ std::string describe_spheres(const SphereFile& file) {
 
 std::string describe_h5(std::string_view image, const fs::path& path) {
     const Hdf5Reader reader(image, path);
-    if (reader.has("/VTKHDF")) return describe_spheres(parse_sphere_h5(image, path));
+    if (reader.has("/VTKHDF")) return describe_spheres(parse_sphere_h5(image, path), path);
     return "HDF5 file\n" + reader.list();
 }
 
@@ -105,7 +108,7 @@ std::string describe_csv(std::string_view text, const fs::path& path) {
     LineReader lines(text);
     std::string_view header;
     if (lines.next_content(header) && is_sphere_csv_header(header))
-        return describe_spheres(parse_sphere_csv(text, path));
+        return describe_spheres(parse_sphere_csv(text, path), path);
     return describe_table(text, path);
 }
 
@@ -154,10 +157,8 @@ std::string describe_file(const fs::path& path) {
     if (suffix == ".json") describe = describe_json;
     if (suffix == ".toml") describe = describe_toml;
     if (suffix == ".bin") describe = describe_checkpoint;
-    if (suffix == ".data")
-        describe = [](auto text, auto& p) { return describe_spheres(parse_lammps_data(text, p)); };
-    if (suffix == ".txt")
-        describe = [](auto text, auto& p) { return describe_spheres(parse_yade_text(text, p)); };
+    if (is_foreign_sphere_suffix(suffix))
+        describe = [](auto text, auto& p) { return describe_spheres(parse_spheres(text, p), p); };
     if (describe == nullptr)
         throw InputError(
             fmt::format("{}: suffix '{}' is not known; allowed: {}, .json, .toml, .bin",

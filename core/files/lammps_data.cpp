@@ -1,18 +1,26 @@
-// LAMMPS data files of atom_style sphere. The layout is that of
+// LAMMPS data files of spheres. The layout is that of
 // https://docs.lammps.org/read_data.html: a first line that is skipped, header lines
 // "VALUES keyword", then sections, each a keyword line, a line that is skipped, and its rows:
 //   Atoms      # sphere   atom-ID atom-type diameter density x y z [image flags nx ny nz]
 //   Velocities            atom-ID vx vy vz wx wy wz
+// The first line may name the units, and the style as well; other styles: lammps_style.hpp.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <utility>
 #include <vector>
 
+#include "core/base/errors.hpp"
+#include "core/files/lammps_style.hpp"
+#include "core/files/lammps_units.hpp"
+#include "core/files/sphere_checks.hpp"
 #include "core/files/sphere_formats.hpp"
 #include "core/files/text_file.hpp"
+#include "core/files/text_form.hpp"
+#include "core/neighbour_search.hpp"
 
 namespace grainfield::core {
 namespace {
@@ -38,7 +46,16 @@ class Parser {
     SphereFile parse() {
         std::string_view line;
         if (!lines_.next(line)) fail("the file is empty");
-        // The first line is a title, and skipped whatever it says.
+        // The first line is a title. LAMMPS skips it; write_data names the units there.
+        if (line.find('\r') != std::string_view::npos)
+            fail("its lines end with CR alone (old Mac): must end with LF or CRLF");
+        title_ = line;
+        units_name_ = named_units(line);
+        if (!units_name_.empty()) {
+            const auto units = lammps_units(units_name_);
+            if (!units || !units->scaled) fail(unusable_units(units_name_));
+            units_ = *units;
+        }
         bool more = lines_.next_content(line);
         for (; more && !starts_with_letter(line); more = lines_.next_content(line)) header(line);
         if (count_ < 0) fail("header line 'N atoms' is missing");
@@ -60,8 +77,8 @@ class Parser {
     double number(std::string_view name, std::string_view word) const {
         double value = 0.0;
         if (!parse_number(word, value))
-            fail(fmt::format("column {} = {}: must be a finite number", name,
-                             word.empty() ? "(nothing)" : shortened(word)));
+            fail(fmt::format("column {} = {}: must be a finite number{}", name,
+                             word.empty() ? "(nothing)" : shortened(word), foreign_number(word)));
         return value;
     }
 
@@ -94,8 +111,11 @@ class Parser {
         if (!zeros || trim(rest).empty())
             fail(
                 fmt::format("header '{}': not supported; allowed: atoms, atom types, xlo xhi, "
-                            "ylo yhi, zlo zhi",
-                            shortened(trim(line))));
+                            "ylo yhi, zlo zhi{}",
+                            shortened(trim(line)),
+                            keyword.ends_with("bonds") || keyword.ends_with("angles")
+                                ? "; bonds are those of molecules: the atom style must be sphere"
+                                : ""));
     }
 
     /// Reads the section that `line` names and leaves the next one's name there. False at the end.
@@ -105,9 +125,8 @@ class Parser {
         const std::string_view style =
             hash == std::string_view::npos ? "" : trim(line.substr(hash + 1));
         if (name == "Atoms") {
-            if (!style.empty() && style != "sphere")
-                fail(fmt::format("atom style '{}': must be sphere", shortened(style)));
-            atoms();
+            if (seen_atoms_) fail("section Atoms stands twice");
+            atoms(style_of(style));
         } else if (name == "Velocities") {
             velocities();
         } else if (name == "Masses" || name == "Pair Coeffs" || name == "PairIJ Coeffs") {
@@ -141,23 +160,41 @@ class Parser {
         return id;
     }
 
-    void atoms() {
-        if (seen_atoms_) fail("section Atoms stands twice");
+    /// Seven numbers a line may be those of several styles: the file has to say which.
+    LammpsStyle style_of(std::string_view comment) const {
+        const std::string_view name = comment.empty() ? named_style(title_) : comment;
+        if (name.empty())
+            fail(
+                fmt::format("the atom style is not said: must stand behind the name of the "
+                            "section, 'Atoms # sphere'; can be read: {}",
+                            lammps_sphere_styles));
+        const auto style = lammps_style(name);
+        if (!style)
+            fail(fmt::format("atom style '{}': must be {}, which have a diameter and a density",
+                             shortened(name), lammps_sphere_styles));
+        return *style;
+    }
+
+    void atoms(const LammpsStyle& style) {
         seen_atoms_ = true;
+        hybrid_layout_ = style.hybrid ? style.layout : "";
         for (std::int64_t i = 0; i < count_; ++i) {
             const auto words = row("Atoms", i);
-            if (words.size() != 7 && words.size() != 10)
-                fail(fmt::format("{} numbers; must be: atom-ID atom-type diameter density x y z",
-                                 words.size()));
+            // Behind them may stand three image flags.
+            if (words.size() != style.columns && words.size() != style.columns + 3)
+                fail(fmt::format("{} numbers; must be: {}", words.size(), style.layout));
             Atom a;
             a.id = atom_id(words[0]);
             a.line = lines_.number();
-            a.diameter = number("diameter", words[2]);
-            if (a.diameter <= 0) fail(fmt::format("column diameter = {}: must be > 0 m", words[2]));
-            a.density = number("density", words[3]);
+            const std::string_view diameter = words[style.diameter], density = words[style.density];
+            a.diameter = units_.length * number("diameter", diameter);
+            if (a.diameter <= 0) fail(fmt::format("column diameter = {}: must be > 0 m", diameter));
+            a.density = units_.density * number("density", density);
             if (a.density <= 0)
-                fail(fmt::format("column density = {}: must be > 0 kg/m3", words[3]));
-            a.position = {number("x", words[4]), number("y", words[5]), number("z", words[6])};
+                fail(fmt::format("column density = {}: must be > 0 kg/m3", density));
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                a.position[axis] = units_.length * number(std::string_view("xyz").substr(axis, 1),
+                                                          words[style.first_of_xyz + axis]);
             atoms_.push_back(a);
         }
         std::sort(atoms_.begin(), atoms_.end(),
@@ -180,15 +217,17 @@ class Parser {
                                  [](const Atom& a, std::int64_t value) { return a.id < value; });
             if (found == atoms_.end() || found->id != id)
                 fail(fmt::format("column atom-ID = {}: no such atom", id));
-            found->velocity = {number("vx", words[1]), number("vy", words[2]),
-                               number("vz", words[3])};
-            found->spin = {number("wx", words[4]), number("wy", words[5]), number("wz", words[6])};
+            const double v = units_.velocity, w = units_.spin;
+            found->velocity = {v * number("vx", words[1]), v * number("vy", words[2]),
+                               v * number("vz", words[3])};
+            found->spin = {w * number("wx", words[4]), w * number("wy", words[5]),
+                           w * number("wz", words[6])};
         }
     }
 
     SphereFile result() const {
         SphereFile file;
-        file.box = box_;
+        file.box = Box{units_.length * box_.lower, units_.length * box_.upper};
         file.has_velocity = seen_velocities_;
         ParticleStore& s = file.spheres;
         s.resize(atoms_.size());
@@ -201,7 +240,31 @@ class Parser {
             s.spin.set(i, Vec3(a.spin.data()));
             file.lines.push_back(a.line);
         }
+        if (units_.name != "si")
+            file.notes.push_back(fmt::format("units {}: converted to SI", units_.name));
+        check_plausible(file);
         return file;
+    }
+
+    /// What no sample of spheres can be is a sign that the numbers mean something else.
+    void check_plausible(const SphereFile& file) const {
+        const std::string why = units_name_.empty() ? implausible_in_si(file) : "";
+        if (!why.empty())
+            throw_at_line(
+                path_, 1,
+                fmt::format("{} in the first line ('units = cgs', or 'units = si')", why));
+        if (hybrid_layout_.empty()) return;
+        // A hybrid has its positions first; files that only call themselves so do not.
+        const ParticleStore& s = file.spheres;
+        std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+        for (const auto [i, j] : find_pairs(s.position, s.radius, 0.0)) pairs.emplace_back(i, j);
+        try {
+            check_overlaps(s, pairs, path_.string(), file.lines);
+        } catch (const InputError& error) {
+            throw InputError(
+                fmt::format("{}; the columns of this atom style are: {}; those of sphere: {}",
+                            error.what(), hybrid_layout_, lammps_style("sphere")->layout));
+        }
     }
 
     LineReader lines_;
@@ -210,6 +273,9 @@ class Parser {
     // LAMMPS' own default where the header says nothing.
     Box box_{Vec3::Constant(-0.5), Vec3::Constant(0.5)};
     std::vector<Atom> atoms_;  ///< by id once the section is read
+    std::string_view title_, units_name_;
+    LammpsUnits units_{"si"};
+    std::string hybrid_layout_;  ///< empty: another style
     bool seen_atoms_ = false;
     bool seen_velocities_ = false;
 };

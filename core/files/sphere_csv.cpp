@@ -8,6 +8,7 @@
 
 #include "core/files/sphere_formats.hpp"
 #include "core/files/text_file.hpp"
+#include "core/files/text_form.hpp"
 
 namespace grainfield::core {
 namespace {
@@ -95,7 +96,10 @@ void check_complete(const Header& header, const std::filesystem::path& path, std
     }
 }
 
-Header parse_header(std::string_view line, const std::filesystem::path& path, std::int32_t number) {
+Header parse_header(std::string_view text, std::string_view line, const std::filesystem::path& path,
+                    std::int32_t number) {
+    const std::string form = foreign_form(text, line);
+    const std::string because = form.empty() ? "" : "; " + form;
     Header header;
     const auto separators = std::count(line.begin(), line.end(), ',');
     for (auto i = 0 * separators; i <= separators; ++i) {
@@ -104,8 +108,9 @@ Header parse_header(std::string_view line, const std::filesystem::path& path, st
                                          [&](const CsvColumn& c) { return c.name == name; });
         if (found == std::end(columns))
             throw_at_line(path, number,
-                          fmt::format("column '{}' is unknown; required: {}; optional: {}",
-                                      shortened(name), required_names(), optional_names()));
+                          fmt::format("column '{}' is unknown{}; required: {}; optional: {}",
+                                      shortened(name.substr(0, name.find('\r'))), because,
+                                      required_names(), optional_names()));
         if (std::find(header.begin(), header.end(), found) != header.end())
             throw_at_line(path, number, fmt::format("column {} stands twice", name));
         header.push_back(found);
@@ -145,14 +150,12 @@ bool is_written(const SphereFile& file, Group group) {
 }  // namespace
 
 bool is_sphere_csv_header(std::string_view header) {
-    bool x = false;
-    bool radius = false;
-    while (!header.empty()) {
-        const std::string_view name = trim(next_field(header, ','));
-        x = x || name == "x";
-        radius = radius || name == "radius";
-    }
-    return x && radius;
+    // Names in foreign forms, too: what is wrong with them is said where they are read.
+    header = header.substr(0, header.find('\r'));
+    const auto names = [&](std::string_view name) { return names_column(header, name); };
+    // Measured values and trajectories have positions as well.
+    const bool positions = names("x") && names("y") && names("z");
+    return (names("x") && names("radius")) || (positions && !names("value") && !names("time_s"));
 }
 
 SphereFile parse_sphere_csv(std::string_view text, const std::filesystem::path& path) {
@@ -162,7 +165,7 @@ SphereFile parse_sphere_csv(std::string_view text, const std::filesystem::path& 
         throw_at_line(path, 1,
                       fmt::format("no header; required: {}; optional: {}", required_names(),
                                   optional_names()));
-    const Header header = parse_header(line, path, lines.number());
+    const Header header = parse_header(text, line, path, lines.number());
 
     SphereFile file;
     file.has_normal_stiffness = has(header, Group::stiffness);
@@ -177,14 +180,15 @@ SphereFile parse_sphere_csv(std::string_view text, const std::filesystem::path& 
         const auto fields = static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
         if (fields != header.size())
             throw_at_line(path, lines.number(),
-                          fmt::format("{} fields, but the header has {}", fields, header.size()));
+                          fmt::format("{} fields, but the header has {}{}", fields, header.size(),
+                                      foreign_row(line, header.size())));
         for (const CsvColumn* c : header) {
             const std::string_view field = trim(next_field(line, ','));
             if (!store_value(*c, field, s, n))
-                throw_at_line(
-                    path, lines.number(),
-                    fmt::format("column {} = {}: {}", c->name,
-                                field.empty() ? "(nothing)" : shortened(field), c->allowed));
+                throw_at_line(path, lines.number(),
+                              fmt::format("column {} = {}: {}{}", c->name,
+                                          field.empty() ? "(nothing)" : shortened(field),
+                                          c->allowed, foreign_number(field)));
         }
         file.lines.push_back(lines.number());
     }

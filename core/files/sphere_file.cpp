@@ -24,6 +24,8 @@ constexpr Format formats[] = {
     {".csv", parse_sphere_csv, format_sphere_csv},
     {".data", parse_lammps_data, format_lammps_data},
     {".txt", parse_yade_text, format_yade_text},
+    {".dump", parse_lammps_dump, nullptr},
+    {".lammpstrj", parse_lammps_dump, nullptr},
 };
 
 const Format& format_of(const std::filesystem::path& path) {
@@ -50,12 +52,27 @@ void require_whole(const ParticleStore& s) {
 }  // namespace
 
 SphereFile read_spheres(const std::filesystem::path& path) {
+    (void)format_of(path);  // before a large file is read
+    return parse_spheres(read_whole_file(path), path);
+}
+
+SphereFile parse_spheres(std::string_view content, const std::filesystem::path& path) {
     const Format& format = format_of(path);
-    return format.parse(read_whole_file(path), path);
+    // Dump files come with any name: their first word says what they are.
+    const bool dump = is_foreign_sphere_suffix(format.suffix) && content.starts_with("ITEM:");
+    return dump ? parse_lammps_dump(content, path) : format.parse(content, path);
+}
+
+bool is_foreign_sphere_suffix(std::string_view suffix) {
+    return suffix == ".data" || suffix == ".txt" || suffix == ".dump" || suffix == ".lammpstrj";
 }
 
 void write_spheres(const std::filesystem::path& path, const SphereFile& file) {
     const Format& format = format_of(path);
+    if (format.format == nullptr)
+        throw InputError(
+            fmt::format("{}: {} is only read; to be written are .h5, .csv, .data, .txt",
+                        path.string(), format.suffix));
     require_whole(file.spheres);
     write_file_atomically(path, format.format(file));
 }

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/scene/particle_store.hpp"
@@ -39,18 +40,27 @@ struct SphereFile {
 
     /// Line of each sphere in the text it was read from; empty for .h5 [-].
     std::vector<std::int32_t> lines;
+    /// What the reader made of the file that its owner should hear: units converted, columns left
+    /// out. A sentence each.
+    std::vector<std::string> notes;
 };
 
 /// Suffixes that read_spheres and write_spheres know, for messages.
-inline constexpr const char* sphere_file_suffixes = ".h5, .csv, .data (LAMMPS), .txt (YADE)";
+inline constexpr const char* sphere_file_suffixes =
+    ".h5, .csv, .data (LAMMPS), .txt (YADE), .dump and .lammpstrj (LAMMPS, only read)";
 
 /// Reads by suffix. InputError: unknown suffix, or a text with wrong content (file, line, column,
 /// value, what is allowed). FileError: cannot be read, or an .h5 that is damaged or not ours.
 SphereFile read_spheres(const std::filesystem::path& path);
+/// The same from the content of such a file.
+SphereFile parse_spheres(std::string_view content, const std::filesystem::path& path);
+/// True for the suffixes of other programs' files.
+bool is_foreign_sphere_suffix(std::string_view suffix);
 
 /// Writes by suffix, atomically. .h5 keeps everything bit for bit; .csv the columns announced by
 /// the flags, bit for bit; .data adds densities and a box; .txt keeps positions and radii only.
-/// InputError: unknown suffix. FileError: cannot be written; the old file is then untouched.
+/// InputError: unknown suffix, or one that is only read. FileError: cannot be written; the old file
+/// is then untouched.
 void write_spheres(const std::filesystem::path& path, const SphereFile& file);
 
 }  // namespace grainfield::core

@@ -162,6 +162,33 @@ void read_ours(const Hdf5Reader& reader, SphereFile& file) {
     }
 }
 
+/// Another program's VTKHDF: positions and sizes, where it has them.
+SphereFile foreign_spheres(const Hdf5Reader& reader) {
+    const std::string radius = point_data + "/radius", diameter = point_data + "/diameter";
+    const bool by_radius = reader.has(radius);
+    const std::string& size = by_radius ? radius : diameter;
+    const auto lacks = [&](const std::string& what) {
+        reader.fail(
+            fmt::format("/grainfield is missing: not a sphere file of grainfield; of other "
+                        "VTKHDF files {} and {} are read, and {} is missing",
+                        points, radius, what));
+    };
+    if (!reader.has(points)) lacks(points);
+    if (!reader.has(size)) lacks(radius);
+    const std::vector<std::size_t> shape = reader.shape(points);
+    if (shape.size() != 2 || shape[1] != 3) reader.fail(fmt::format("{}: must be N x 3", points));
+    const auto centres = reader.read<double>(points);
+    const auto sizes = read_shaped<double>(reader, size, {shape[0]});
+    SphereFile file;
+    file.spheres.resize(shape[0]);
+    for (std::size_t i = 0; i < shape[0]; ++i) {
+        file.spheres.position.set(i, Vec3(centres.data() + 3 * i));
+        file.spheres.radius[i] = (by_radius ? 1.0 : 0.5) * sizes[i];
+    }
+    file.notes.emplace_back("VTKHDF of another program: its centres and radii are read, no more");
+    return file;
+}
+
 }  // namespace
 
 std::string format_sphere_h5(const SphereFile& file) {
@@ -179,7 +206,7 @@ std::string format_sphere_h5(const SphereFile& file) {
 
 SphereFile parse_sphere_h5(std::string_view image, const std::filesystem::path& path) {
     const Hdf5Reader reader(image, path);
-    if (!reader.has(ours)) reader.fail("/grainfield is missing: not a sphere file of grainfield");
+    if (!reader.has(ours)) return foreign_spheres(reader);
     SphereFile file;
     read_ours(reader, file);
     const auto count = read_shaped<std::int64_t>(reader, "/VTKHDF/NumberOfPoints", {1});

@@ -66,8 +66,11 @@ std::string describe_table(std::string_view text, const std::filesystem::path& p
     LineReader lines(text);
     std::string_view line;
     if (!lines.next_content(line))
-        throw FileError(fmt::format("{}: empty, not even a header", path.string()));
+        throw InputError(fmt::format("{}: empty, not even a header", path.string()));
     const std::string_view kind = kind_of(line);
+    if (double value = 0.0; parse_number(trim(line.substr(0, line.find(','))), value))
+        throw InputError(fmt::format("{}:{}: begins with a number: the first line must be a header",
+                                     path.string(), lines.number()));
     std::vector<ColumnInfo> columns(
         static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1);
     for (ColumnInfo& c : columns) c.name = trim(next_field(line, ','));
@@ -75,8 +78,8 @@ std::string describe_table(std::string_view text, const std::filesystem::path& p
     for (; lines.next_content(line); ++rows) {
         const auto fields = static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
         if (fields != columns.size())
-            throw FileError(fmt::format("{}:{}: {} fields, but the header has {}", path.string(),
-                                        lines.number(), fields, columns.size()));
+            throw InputError(fmt::format("{}:{}: {} fields, but the header has {}", path.string(),
+                                         lines.number(), fields, columns.size()));
         for (ColumnInfo& c : columns) c.add(trim(next_field(line, ',')));
     }
     std::string info = fmt::format("{}: {} rows, {} columns\n", kind, rows, columns.size());

@@ -10,6 +10,7 @@
 // Every sphere has its own, larger the faster it moves: loose spheres that fly about do not force a
 // rebuild every few steps, and spheres that stay have few candidates.
 
+#include "core/state/bytes.hpp"
 #include "core/vector/domain_lists.hpp"
 
 namespace grainfield::core {

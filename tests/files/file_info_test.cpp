@@ -6,6 +6,7 @@
 #include "core/base/errors.hpp"
 #include "core/files/hdf5_writer.hpp"
 #include "core/files/json_text.hpp"
+#include "core/files/sphere_checks.hpp"
 #include "core/files/sphere_formats.hpp"
 #include "core/files/text_file.hpp"
 #include "tests/files/sample.hpp"
@@ -54,7 +55,8 @@ TEST_F(FileInfoTest, DescribesASphereFile) {
         EXPECT_THAT(describe_file(in_folder(name)),
                     AllOf(StartsWith("sphere file: 3 spheres\n"), HasSubstr("median 0.5 m")));
     }
-    EXPECT_THAT(info("e.csv", "x,y,z,radius\n"), StartsWith("sphere file: 0 spheres\n"));
+    EXPECT_THAT(message_of<InputError>([&] { info("e.csv", "x,y,z,radius\n"); }),
+                HasSubstr("no sphere; at least one needed"));
 }
 
 TEST_F(FileInfoTest, CountsAMissingBlockAsNone) {
@@ -82,9 +84,44 @@ TEST_F(FileInfoTest, DescribesTables) {
                       HasSubstr("  case: base\n"), HasSubstr("  status: done, failed\n")));
     EXPECT_THAT(info("t.csv", "a,b\n1,2\n"), StartsWith("table: 1 rows, 2 columns\n"));
     const auto cut = text_file("r.csv", "a,b,c\n1,2,3\n4,5");
-    EXPECT_EQ(message_of<FileError>([&] { describe_file(cut); }),
+    EXPECT_EQ(message_of<InputError>([&] { describe_file(cut); }),
               cut.string() + ":3: 2 fields, but the header has 3");
-    EXPECT_THROW(info("e.csv", ""), FileError);
+    EXPECT_THROW(info("e.csv", ""), InputError);
+    EXPECT_THAT(message_of<InputError>([&] { info("n.csv", "0.1,0.2,0.3,0.05\n"); }),
+                HasSubstr("begins with a number"));
+}
+
+// What convert refuses as a sphere file is no other table for info.
+TEST_F(FileInfoTest, RefusesSphereFilesInForeignForms) {
+    struct Form {
+        const char *text, *said;
+    };
+    for (const Form& form :
+         {Form{"x;y;z;radius\r\n0,1;0,1;0,1;0,05\r\n",
+               "separated by semicolons (;): must be commas (,); its numbers have decimal commas"},
+          {"x\ty\tz\tradius\n0.1\t0.1\t0.1\t0.05\n", "separated by tabs"},
+          {"x y z radius\n0.1 0.1 0.1 0.05\n", "separated by blanks"},
+          {"\"x\",\"y\",\"z\",\"radius\"\n0.1,0.1,0.1,0.05\n", "names stand in quotes"},
+          {"x,y,z,radius\r0.1,0.1,0.1,0.05\r", "end with CR alone (old Mac)"},
+          {"x,y,z,radius,\n0.1,0.1,0.1,0.05,\n", "it ends with ','"},
+          {"x,y,z,radius\n0,1,0,1,0,1,0,05\n",
+           "8 fields, but the header has 4; if its numbers have "
+           "decimal commas: must be points"},
+          {"x,y,z,radius\n1.0D-01,0.1,0.1,0.05\n", "its exponent begins with D: must be e or E"},
+          {"x,y,z,radius\n\"0.1\",0.1,0.1,0.05\n", "the number stands in quotes"},
+          {"x,y,z,radius\n0.1;0.1;0.1;0.05\n", "semicolons (;) stand in it"},
+          {"x,y,z,r\n0,0,0,1\n", "column 'r' is unknown"},
+          {"x,y,z,radius\n", "no sphere; at least one needed"}}) {
+        SCOPED_TRACE(form.text);
+        const auto path = text_file("s.csv", form.text);
+        const std::string said = message_of<InputError>([&] { describe_file(path); });
+        EXPECT_THAT(said, HasSubstr(form.said));
+        EXPECT_EQ(message_of<InputError>([&] {
+                      const SphereFile file = read_spheres(path);
+                      check_spheres(file.spheres, path.string(), file.lines);
+                  }),
+                  said);
+    }
 }
 
 TEST_F(FileInfoTest, DescribesJsonTomlAndOtherHdf5) {

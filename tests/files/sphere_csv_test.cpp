@@ -98,7 +98,10 @@ TEST_F(SphereCsvTest, NamesLineColumnValueAndWhatIsAllowed) {
 TEST_F(SphereCsvTest, NamesWrongNumbersOfFields) {
     EXPECT_EQ(error(required + "0,0,1\n"), "s.csv:2: 3 fields, but the header has 4");
     EXPECT_EQ(error(required + "0,0,0,1,\n"), "s.csv:2: 5 fields, but the header has 4");
-    EXPECT_EQ(error(required + "0 0 0 1\n"), "s.csv:2: 1 fields, but the header has 4");
+    EXPECT_EQ(
+        error(required + "0 0 0 1\n"),
+        "s.csv:2: 1 fields, but the header has 4; blanks stand in it: fields must be separated "
+        "by commas");
 }
 
 TEST_F(SphereCsvTest, NamesWrongHeaders) {

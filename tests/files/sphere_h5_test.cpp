@@ -185,12 +185,36 @@ TEST_F(SphereH5Test, NamesTheDatasetThatIsMissing) {
         EXPECT_THAT(error(incomplete_image("", wrong)), HasSubstr("another shape"));
     Hdf5Writer foreign;
     foreign.group("/VTKHDF");
-    EXPECT_EQ(error(foreign.finish()), "/grainfield is missing: not a sphere file of grainfield");
+    EXPECT_EQ(
+        error(foreign.finish()),
+        "/grainfield is missing: not a sphere file of grainfield; of other VTKHDF files "
+        "/VTKHDF/Points and /VTKHDF/PointData/radius are read, and /VTKHDF/Points is missing");
     Hdf5Writer newer;
     newer.group("/grainfield");
     const std::int64_t version = 99;
     newer.attribute("/grainfield", "format_version", std::span(&version, 1));
     EXPECT_EQ(error(newer.finish()), "format version 99; this program reads 1");
+}
+
+// As VTK writes particles: PolyData, points in single precision or double, a column of radii.
+TEST_F(SphereH5Test, TakesCentresAndRadiiOfOtherPrograms) {
+    for (const std::string size : {"radius", "diameter"}) {
+        Hdf5Writer foreign;
+        foreign.group("/VTKHDF");
+        foreign.group("/VTKHDF/PointData");
+        foreign.dataset<double>("/VTKHDF/Points", {2, 3}, std::vector<double>{0, 1, 2, 3, 4, 5});
+        foreign.dataset<double>("/VTKHDF/PointData/" + size, {2}, std::vector<double>{0.5, 0.25});
+        const SphereFile file = read_spheres(text_file("s.h5", foreign.finish()));
+        ASSERT_EQ(file.spheres.size(), 2u);
+        EXPECT_EQ(file.spheres.position[1], Vec3(3, 4, 5));
+        EXPECT_EQ(file.spheres.radius[1], size == "radius" ? 0.25 : 0.125);
+        EXPECT_FALSE(file.box || file.has_velocity || file.has_normal_stiffness);
+        EXPECT_EQ(file.notes.size(), 1u);
+    }
+    Hdf5Writer points;
+    points.group("/VTKHDF");
+    points.dataset<double>("/VTKHDF/Points", {1, 3}, std::vector<double>(3));
+    EXPECT_THAT(error(points.finish()), HasSubstr("/VTKHDF/PointData/radius is missing"));
 }
 
 TEST_F(SphereH5Test, RefusesAListOfTextsForOne) {

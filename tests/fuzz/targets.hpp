@@ -11,6 +11,9 @@ namespace grainfield::fuzz {
 bool config(std::string_view input);
 bool scene(std::string_view input);
 bool sphere_csv(std::string_view input);
+bool lammps_data(std::string_view input);
+bool lammps_dump(std::string_view input);
+bool yade_text(std::string_view input);
 bool sphere_h5(std::string_view input);
 bool sphere_h5_made(std::string_view recipe);  ///< the file that made_h5() makes of it
 
@@ -22,6 +25,9 @@ struct Target {
 inline constexpr Target targets[] = {{"config", config},
                                      {"scene", scene},
                                      {"sphere_csv", sphere_csv},
+                                     {"lammps_data", lammps_data, 5000},
+                                     {"lammps_dump", lammps_dump, 5000},
+                                     {"yade_text", yade_text, 5000},
                                      {"sphere_h5", sphere_h5},
                                      {"sphere_h5_made", sphere_h5_made, 2000}};
 

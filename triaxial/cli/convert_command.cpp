@@ -75,6 +75,7 @@ void run_convert(const ConvertArguments& arguments, Session& session) {
     core::check_spheres(file.spheres, arguments.in, file.lines);
     core::write_spheres(arguments.out, file);
     print_row("read", arguments.in);
+    for (const std::string& note : file.notes) print_row("note", note);
     print_row("written", fmt::format("{}, {} spheres", arguments.out, file.spheres.size()));
     const std::string names = lost(file, arguments.out);
     if (!names.empty())
