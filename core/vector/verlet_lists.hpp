@@ -10,7 +10,6 @@
 // the share of their buffers that they need to meet (CandidateList), and a step looks only at those
 // that the motion since the build has brought into play.
 
-#include "core/state/bytes.hpp"
 #include "core/vector/verlet_buffers.hpp"
 
 namespace grainfield::core {

@@ -7,11 +7,14 @@
 #include <optional>
 
 #include "core/base/errors.hpp"
+#include "core/files/sphere_checks.hpp"
+#include "core/files/sphere_file.hpp"
 #include "core/files/text_file.hpp"
 #include "triaxial/campaign/campaign.hpp"
 #include "triaxial/campaign/progress.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/print_row.hpp"
+#include "triaxial/realization/given_packing.hpp"
 #include "triaxial/realization/sample.hpp"
 
 namespace grainfield::triaxial {
@@ -60,8 +63,22 @@ void print_cases(const std::vector<CampaignCase>& cases, const std::map<RowPlace
     }
 }
 
+/// Every case is one of the packing that all of them start from.
+void adapt_to_packing(std::vector<CampaignCase>& cases, const std::string& path,
+                      core::Monitor& monitor) {
+    const core::SphereFile file = core::read_spheres(path);
+    core::check_spheres(file.spheres, path, file.lines);
+    for (const std::string& note : file.notes) monitor.note(fmt::format("{}: {}", path, note));
+    for (CampaignCase& one : cases) try {
+            one.config = config_of_packing(file, path, one.config, one.given);
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("case \"{}\": {}", one.name, error.what()));
+        }
+}
+
 void run_montecarlo(const MonteCarloArguments& arguments, Session& session) {
-    const std::vector<CampaignCase> cases = load_campaign(arguments.config, session.settings);
+    std::vector<CampaignCase> cases = load_campaign(arguments.config, session.settings);
+    if (arguments.packing) adapt_to_packing(cases, *arguments.packing, session.monitor);
     const Shard shard = parse_shard(arguments.shard);
     for (const CampaignCase& one : cases) check_field_data(one.config);
     for (const CampaignCase& one : cases)
@@ -101,7 +118,7 @@ void add_montecarlo_command(CommandLine& line) {
     command.add("--shard", arguments->shard,
                 "I/N: only the I-th of N parts; parts may share a folder");
     command.add("--packing", arguments->packing,
-                "Packing that all runs start from, .h5 or .csv; without one each case's is "
+                "Packing that all runs start from, any file of spheres; without one each case's is "
                 "made");
     command
         .add("--abreast", arguments->abreast,

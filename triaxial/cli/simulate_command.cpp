@@ -65,6 +65,7 @@ void run_simulate(const SimulateArguments& arguments, Session& session) {
     });
     checkpoint.remove();
     print_row("particles, walls", fmt::format("{}, {}", s.particles, s.walls));
+    print_row("density", s.density);
     print_row("contacts at the end", fmt::format("{}", s.contacts));
     print_row("time, steps", fmt::format("{:.6g} s, {}", s.time, s.steps));
     print_row("time step", fmt::format("{:.6g} s", s.time_step));

@@ -12,6 +12,7 @@
 #include "core/files/atomic_file.hpp"
 #include "core/files/folder.hpp"
 #include "core/files/json_text.hpp"
+#include "core/files/sphere_checks.hpp"
 #include "core/files/text_file.hpp"
 #include "core/kernel_choice.hpp"
 #include "core/state/section_of.hpp"
@@ -20,6 +21,7 @@
 #include "triaxial/cli/resumable_run.hpp"
 #include "triaxial/config/load_config.hpp"
 #include "triaxial/config/write_config.hpp"
+#include "triaxial/realization/given_packing.hpp"
 #include "triaxial/realization/packing_files.hpp"
 #include "triaxial/realization/run_files.hpp"
 #include "triaxial/realization/sample.hpp"
@@ -39,8 +41,11 @@ struct TriaxialArguments {
 };
 
 /// The sample from a file; packing.json follows it into the run's folder where it exists.
-Sample sample_from_file(const fs::path& path, const Config& config, const fs::path& out) {
+Sample sample_from_file(const fs::path& path, const Config& config, const fs::path& out,
+                        core::Monitor& monitor) {
     core::SphereFile file = read_packing(path, config);
+    for (const std::string& note : file.notes)
+        monitor.note(fmt::format("{}: {}", path.string(), note));
     if (fs::exists(json_beside(path)) && file.kind == "packing")
         core::write_file_atomically(out / "packing.json", core::read_whole_file(json_beside(path)));
     return sample_of(std::move(file), path);
@@ -84,7 +89,7 @@ void print_test(const TestResult& r, const Config& config, const FieldRecord& fi
 /// A run to begin or to go on with.
 struct Run {
     Config config;
-    std::string asked;  // the config as resolved, before "auto" got its meaning
+    std::string used;  // the config as resolved, before "auto" got its meaning
     nlohmann::json identity;
     std::optional<core::FoundCheckpoint> found;
     std::optional<std::string> packing;
@@ -100,11 +105,12 @@ Run prepare_run(const TriaxialArguments& arguments, const fs::path& checkpoint, 
     if (run.realization < 0)
         throw InputError(
             fmt::format("--realization = {}: must be a whole number >= 0", run.realization));
-    run.config = run.found ? resumed_config(*run.found, arguments.config, session.settings)
-                           : load_config(arguments.config, session.settings);
-    run.asked = write_config(run.config);
+    std::string asked;
     if (run.found) {
+        asked = write_config(resumed_config(*run.found, arguments.config, session.settings));
         const auto before = nlohmann::json::parse(run.found->identity);
+        run.used = before.value("used", asked);
+        run.config = parse_config(run.used, run.found->file.string());
         run.config.solver = resumed_solver(*run.found, "triaxial", run.config.solver);
         const std::string packing = before.at("packing");
         if (arguments.packing.value_or(packing) != packing)
@@ -116,9 +122,20 @@ Run prepare_run(const TriaxialArguments& arguments, const fs::path& checkpoint, 
                                          before.at("realization").get<std::int64_t>()));
         if (!packing.empty()) run.packing = packing;
         run.realization = before.at("realization");
+    } else {
+        const auto [config, given] = load_given_config(arguments.config, session.settings);
+        asked = write_config(config);
+        run.config = config;
+        if (run.packing) {
+            const core::SphereFile file = core::read_spheres(*run.packing);
+            core::check_spheres(file.spheres, *run.packing, file.lines);
+            run.config = config_of_packing(file, *run.packing, config, given);
+        }
+        run.used = write_config(run.config);
     }
     run.identity = run_identity("triaxial", run.config.solver);
-    run.identity["config"] = run.asked;
+    run.identity["config"] = asked;
+    run.identity["used"] = run.used;
     run.identity["packing"] = run.packing.value_or("");
     run.identity["realization"] = run.realization;
     return run;
@@ -144,7 +161,7 @@ core::Simulation begin_test(const Run& run, Before& before, const kernels::Kerne
                             core::Checkpoint& checkpoint) {
     const core::SimulationOptions options{.skin = 0, .ledger = true};
     if (before.ready) return {core::Scene{}, kernels, options};
-    Sample sample = run.packing ? sample_from_file(*run.packing, run.config, out)
+    Sample sample = run.packing ? sample_from_file(*run.packing, run.config, out, monitor)
                                 : sample_from_nothing(run.config, out, monitor, checkpoint);
     before.times.packing = before.watch.lap();
     before.field = map_field(run.config, run.realization, sample);
@@ -153,6 +170,16 @@ core::Simulation begin_test(const Run& run, Before& before, const kernels::Kerne
     before.ready = true;
     return make_simulation(std::move(sample), run.config, kernels,
                            run.packing.value_or("the packing"), options);
+}
+
+/// The config as it was used. Where the sample came from a file that does not say how it was made,
+/// the keys of its making are none of its.
+std::string config_text(const Run& run) {
+    if (!run.packing) return run.used;
+    return fmt::format(
+        "# Sample: {}. What [packing] and [grading] say is true of it as far as it is known;\n"
+        "# seed, gravity, spheres and grading only of packings of grainfield.\n{}",
+        fs::path(*run.packing).filename().string(), run.used);
 }
 
 void run_triaxial(const TriaxialArguments& arguments, Session& session) {
@@ -177,7 +204,7 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
         resumable.run([&] { return run_test(simulation, config, resumable, &checkpoint); });
     const RunTimes& times = before.times;
     const FieldRecord& field = before.field;
-    core::write_file_atomically(out / "config.toml", run.asked);
+    core::write_file_atomically(out / "config.toml", config_text(run));
     core::write_file_atomically(out / "curve.csv", curve_csv(result.curve));
     core::write_file_atomically(out / "energy.csv", energy_csv(result.energies));
     write_state(out / "state.h5", simulation);
@@ -189,6 +216,7 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
 
     print_row("spheres", fmt::format("{}, {} contacts when shear began",
                                      simulation.spheres().size(), result.contacts));
+    print_row("density", density_text(simulation.spheres()));
     print_test(result, config, field);
     const double total = summary["wall_seconds"]["total"];
     print_row("time",
@@ -216,7 +244,7 @@ void add_triaxial_command(CommandLine& line) {
                  [arguments](Session& session) { run_triaxial(*arguments, session); });
     command.add("config", arguments->config, "Config (TOML); without one the case of Tran et al.");
     command.add("--packing", arguments->packing,
-                "Packing to start from, .h5 or .csv; without one it is made");
+                "Packing to start from, any file of spheres; without one it is made");
     command.add("--realization", arguments->realization,
                 "Which realization of the field, 0 unless given");
     command.add("--out", arguments->out, "Folder for the results").required().take_last();

@@ -37,10 +37,17 @@ class ConfigReader {
 
     const Config& config() const { return config_; }
 
+    std::set<std::string> given() const {
+        std::set<std::string> keys;
+        for (const auto& [path, value] : leaves(root_)) keys.insert(path);
+        return keys;
+    }
+
     std::vector<CampaignCase> campaign() const {
         std::vector<CampaignCase> campaign;
         for (const CaseKeys& keys : cases_) try {
-                campaign.push_back({keys.name, case_config(keys.values)});
+                campaign.push_back({keys.name, case_config(keys.values), given()});
+                for (const auto& [path, value] : keys.values) campaign.back().given.insert(path);
             } catch (const InputError& error) {
                 throw InputError(fmt::format("case \"{}\": {}", keys.name, error.what()));
             }
@@ -88,6 +95,12 @@ class ConfigReader {
 Config load_config(const std::optional<std::filesystem::path>& file,
                    std::span<const std::string> overrides) {
     return ConfigReader(read_root(file, overrides), file ? file->string() : "").config();
+}
+
+GivenConfig load_given_config(const std::optional<std::filesystem::path>& file,
+                              std::span<const std::string> overrides) {
+    const ConfigReader reader(read_root(file, overrides), file ? file->string() : "");
+    return {reader.config(), reader.given()};
 }
 
 Config parse_config(std::string_view text, const std::string& source) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +19,14 @@ namespace grainfield::triaxial {
 Config load_config(const std::optional<std::filesystem::path>& file,
                    std::span<const std::string> overrides = {});
 
+/// A config with the keys that file and overrides give, by dotted path.
+struct GivenConfig {
+    Config config;
+    std::set<std::string> given;
+};
+GivenConfig load_given_config(const std::optional<std::filesystem::path>& file,
+                              std::span<const std::string> overrides = {});
+
 /// The config that write_config() wrote as `text`; `source` names it in messages.
 Config parse_config(std::string_view text, const std::string& source);
 
@@ -25,6 +34,7 @@ Config parse_config(std::string_view text, const std::string& source);
 struct CampaignCase {
     std::string name;
     Config config;
+    std::set<std::string> given = {};  ///< keys that file, overrides and case give
 };
 
 /// The cases of a campaign, each checked as a config of its own: [[montecarlo.case]] crossed with

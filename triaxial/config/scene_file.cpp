@@ -66,6 +66,7 @@ SceneFile read_scene(const toml::table& root, const std::filesystem::path& file)
     reader.finish();
 
     scene.spheres = file.parent_path() / spheres;  // an absolute path stays itself
+    scene.density_given = reader.has("particle.density");
     scene.step = time.step;
     scene.safety = time.safety;
     scene.mass_scaling = time.mass_scaling;

@@ -33,6 +33,7 @@ struct SceneFile {
     double end = 0;                 ///< [s]
     Vec3 gravity = Vec3::Zero();    ///< acceleration [m/s2]
     ParticleOptions particle;
+    bool density_given = false;  ///< particle.density stands in the scene
     core::Damping damping;
     /// Double unless asked otherwise: a scene is small, and more often than not a test of physics.
     core::SolverOptions solver{.precision = core::Precision::double_};

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/files/atomic_file.hpp"
-#include "core/files/json_text.hpp"
 #include "core/files/sphere_file.hpp"
+#include "triaxial/realization/given_packing.hpp"
 
 namespace grainfield::triaxial {
 namespace {
@@ -98,11 +98,7 @@ void write_packing(const std::filesystem::path& path, const packing::Packing& p,
     file.box = p.box;
     file.has_normal_stiffness = file.has_friction_angle = file.has_block = true;
     file.kind = "packing";
-    file.attributes = core::json_text(
-        {{"porosity", p.porosity},
-         {"seed", p.options.seed},
-         {"blocks", p.options.blocks},
-         {"block_m", {p.options.block.x(), p.options.block.y(), p.options.block.z()}}});
+    file.attributes = packing_attributes(p);
     core::write_spheres(path, file);
     core::write_file_atomically(json_beside(path), packing_json(p, wall_seconds).dump(2) + "\n");
 }

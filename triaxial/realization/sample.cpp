@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "core/neighbour_search.hpp"
 #include "randomfield/generators/generator.hpp"
 #include "randomfield/verification/field_error.hpp"
+#include "triaxial/realization/given_packing.hpp"
 
 namespace grainfield::triaxial {
 
@@ -41,8 +43,13 @@ core::SphereFile read_packing(const std::filesystem::path& path, const Config& c
             fmt::format("{}: brings a column for the property that field.variable makes random; "
                         "leave out the one or the other",
                         path.string()));
+    const core::Column<double> given = s.mass;
     s.set_density(config.particle.density);
-    if (!file.box) file.box = core::bounding_box(s);
+    for (std::size_t i = 0; i < s.size(); ++i)
+        if (given[i] > 0) s.mass[i] = given[i];
+    std::string note;
+    file.box = box_of_packing(file, &note);
+    if (!note.empty()) file.notes.push_back(note);
     return file;
 }
 
@@ -85,6 +92,27 @@ std::optional<double> field_covariance_error(const Config& config) {
     return randomfield::covariance_error(*generator).covariance;
 }
 
+namespace {
+
+/// Cells of spheres without blocks are found by place: the grid must be as large as the box, but
+/// for half a cell.
+void check_grid(const randomfield::GridSpec& grid, const Sample& sample) {
+    const auto& blocks = sample.spheres.block;
+    if (std::find(blocks.begin(), blocks.end(), core::no_block) == blocks.end()) return;
+    const Vec3 size = sample.box.size();
+    for (int axis = 0; axis < 3; ++axis) {
+        const double cell = grid.cell_size[axis];
+        const double length = grid.cells[static_cast<std::size_t>(axis)] * cell;
+        if (std::abs(length - size[axis]) > 0.5 * cell)
+            throw InputError(fmt::format(
+                "packing.blocks = [{}, {}, {}]: the field's grid measures {:g} m along {}, but the "
+                "sample {:.4g} m",
+                grid.cells[0], grid.cells[1], grid.cells[2], length, "xyz"[axis], size[axis]));
+    }
+}
+
+}  // namespace
+
 FieldRecord map_field(const Config& config, std::int64_t realization, Sample& sample) {
     FieldRecord record;
     record.variable = config.field.variable;
@@ -96,6 +124,7 @@ FieldRecord map_field(const Config& config, std::int64_t realization, Sample& sa
     record.gamma = generator.gamma();
 
     core::ParticleStore& s = sample.spheres;
+    check_grid(generator.grid(), sample);
     std::vector<std::size_t> cell(s.size());
     for (std::size_t i = 0; i < s.size(); ++i) {
         const core::BlockIndex& block = s.block[i];

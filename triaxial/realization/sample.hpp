@@ -11,10 +11,10 @@
 
 namespace grainfield::triaxial {
 
-/// Reads a packing for a test. An .h5 brings its box; of a text file the box is the spheres'
-/// bounding box. Properties are those of [particle]; of a text file, columns that it brings
-/// override them. Throws InputError (bad spheres, overlaps, a column of a property that
-/// field.variable makes random), FileError.
+/// Reads a packing for a test. Its box is box_of_packing(). Spheres that bring a mass keep it.
+/// Other properties are those of [particle]; columns that a file brings override them, but for
+/// packings and starts of grainfield. Throws InputError (bad spheres, overlaps, a column of a
+/// property that field.variable makes random), FileError.
 core::SphereFile read_packing(const std::filesystem::path& path, const Config& config);
 
 /// A sample of what was read. A file that was written as the start of tests brings the shear forces
@@ -43,7 +43,7 @@ std::optional<double> field_covariance_error(const Config& config);
 
 /// Draws realization k and maps it onto the spheres, block by block; spheres without a block take
 /// that of the cell they lie in. Does nothing with field.variable = "none". Throws InputError if a
-/// block lies outside the field's grid.
+/// block lies outside the field's grid, or where that grid does not fit the box.
 FieldRecord map_field(const Config& config, std::int64_t realization, Sample& sample);
 
 }  // namespace grainfield::triaxial

@@ -9,6 +9,7 @@
 #include "core/drive/driver.hpp"
 #include "core/kernel_choice.hpp"
 #include "core/state/section_of.hpp"
+#include "triaxial/realization/given_packing.hpp"
 #include "triaxial/scene/scene_output.hpp"
 #include "triaxial/scene/scene_setup.hpp"
 
@@ -131,7 +132,8 @@ SceneSummary run_scene(const SceneFile& file, const std::filesystem::path& sourc
     core::SimulationOptions options;
     options.ledger = true;
     const bool resumes = checkpoint != nullptr && checkpoint->resuming();
-    core::Simulation simulation(resumes ? core::Scene{} : set_up_scene(file), kernels, options);
+    core::Simulation simulation(resumes ? core::Scene{} : set_up_scene(file, &monitor), kernels,
+                                options);
     SceneOutput output(out, !resumes);
     SceneRun run(file, source.string(), simulation, output, monitor, checkpoint);
 
@@ -149,6 +151,7 @@ SceneSummary run_scene(const SceneFile& file, const std::filesystem::path& sourc
     summary.particles = simulation.spheres().size();
     summary.walls = simulation.walls().size();
     summary.contacts = simulation.contacts().count();
+    summary.density = density_text(simulation.spheres());
     summary.steps = simulation.steps();
     summary.time = run.time();
     summary.time_step = file.step ? *file.step : summary.time / double(summary.steps);

@@ -14,6 +14,7 @@ namespace grainfield::triaxial {
 struct SceneSummary {
     std::size_t particles = 0, walls = 0;  ///< [-]
     std::int64_t contacts = 0;             ///< touching at the end [-]
+    std::string density;                   ///< of the spheres, as text
     std::int64_t steps = 0;                ///< [-]
     double time_step = 0;                  ///< the mean one where it was automatic [s]
     double time = 0;                       ///< reached [s]

@@ -22,7 +22,7 @@ std::string sphere_name(std::size_t i, std::span<const std::int32_t> lines) {
                             : fmt::format("sphere {}", i);
 }
 
-void complete_columns(core::SphereFile& file, const ParticleOptions& particle,
+void complete_columns(core::SphereFile& file, const ParticleOptions& particle, bool density_given,
                       const std::string& source) {
     core::ParticleStore& s = file.spheres;
     if (!file.has_normal_stiffness) s.normal_stiffness.assign(s.size(), particle.normal_stiffness);
@@ -30,7 +30,15 @@ void complete_columns(core::SphereFile& file, const ParticleOptions& particle,
     const core::Column<double> given = s.mass;
     s.set_density(particle.density);
     for (std::size_t i = 0; i < s.size(); ++i) {
-        if (given[i] > 0) s.mass[i] = given[i];
+        if (given[i] > 0) {
+            if (density_given && std::abs(given[i] - s.mass[i]) > 1e-3 * given[i])
+                throw InputError(fmt::format(
+                    "particle.density = {}: contradicts {}, whose {} brings a mass of {:.6g} kg, "
+                    "not "
+                    "{:.6g} kg; leave the key out",
+                    particle.density, source, sphere_name(i, file.lines), given[i], s.mass[i]));
+            s.mass[i] = given[i];
+        }
         if (!(s.normal_stiffness[i] > 0))
             throw InputError(fmt::format("{}: {}: normal_stiffness = {}: must be > 0 Pa", source,
                                          sphere_name(i, file.lines), s.normal_stiffness[i]));
@@ -81,11 +89,14 @@ double distance_of_walls(std::span<const core::Wall> walls, int axis) {
 
 }  // namespace
 
-core::Scene set_up_scene(const SceneFile& file) {
+core::Scene set_up_scene(const SceneFile& file, core::Monitor* monitor) {
     const std::string name = file.spheres.string();
     core::SphereFile spheres = core::read_spheres(file.spheres);
     core::check_spheres(spheres.spheres, name, spheres.lines);
-    complete_columns(spheres, file.particle, name);
+    if (monitor != nullptr)
+        for (const std::string& note : spheres.notes)
+            monitor->note(fmt::format("{}: {}", name, note));
+    complete_columns(spheres, file.particle, file.density_given, name);
 
     core::Scene scene;
     scene.gravity = file.gravity;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/monitor.hpp"
 #include "core/drive/servo.hpp"
 #include "core/scene/scene.hpp"
 #include "triaxial/config/scene_file.hpp"
@@ -15,7 +16,7 @@ namespace grainfield::triaxial {
 /// come from the density unless the file brings them. Throws InputError (file, line, value, what is
 /// allowed), also for spheres that overlap by more than 10 % of the smaller radius or reach as far
 /// into a wall; FileError.
-core::Scene set_up_scene(const SceneFile& file);
+core::Scene set_up_scene(const SceneFile& file, core::Monitor* monitor = nullptr);
 
 /// A wall that holds a stress, with the walls that span its area.
 struct ServoWall {
