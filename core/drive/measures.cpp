@@ -58,23 +58,24 @@ Fabric measure_fabric(const Simulation& simulation) {
             Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(fabric.tensor).eigenvalues();
         fabric.anisotropy = values[2] - values[0];
     }
-    double contacts_of_all = 0, rattlers = 0, rattler_volume = 0, volume = 0, held = 0;
+    // 2C of Thornton is the sum over the spheres, and so are contacts with walls: one each.
+    double contacts_of_all = 0, rattlers = 0, rattler_volume = 0, volume = 0, single = 0;
     for (std::size_t i = 0; i < n; ++i) {
         contacts_of_all += count[i];
         const double v = s.radius[i] * s.radius[i] * s.radius[i];
         volume += v;
-        if (count[i] < 4) {
-            rattlers += 1;
-            rattler_volume += v;
-        }
+        if (count[i] > 1) continue;
+        single += count[i];
+        rattlers += 1;
+        rattler_volume += v;
     }
-    for (const auto& [i, j, shear, force] : contacts)
-        if (count[i] >= 4 && (j < 0 || count[j] >= 4)) held += j >= 0 ? 2 : 1;
     const auto spheres = static_cast<double>(n);
     fabric.coordination_number = contacts_of_all / spheres;
     fabric.rattler_fraction = rattlers / spheres;
     fabric.rattler_volume_fraction = rattler_volume / volume;
-    if (rattlers < spheres) fabric.mechanical_coordination_number = held / (spheres - rattlers);
+    // Thornton (2000), Z_m = (2C - N1)/(N - N0 - N1).
+    if (rattlers < spheres)
+        fabric.mechanical_coordination_number = (contacts_of_all - single) / (spheres - rattlers);
     return fabric;
 }
 

@@ -8,9 +8,10 @@ namespace grainfield::core {
 /// Coordination and fabric of the touching contacts, walls included.
 struct Fabric {
     double coordination_number = 0;  ///< Z: contacts a sphere [-]
-    /// Z of the spheres that are not rattlers, contacts among themselves and with walls [-]
+    /// (2C - N1)/(N - N0 - N1) after Thornton (2000): C contacts, N0 and N1 spheres with none and
+    /// with one. A contact with a wall counts as half a C: it has one sphere [-]
     double mechanical_coordination_number = 0;
-    double rattler_fraction = 0;         ///< spheres with fewer than four contacts, by number [-]
+    double rattler_fraction = 0;         ///< (N0 + N1)/N: spheres that carry nothing [-]
     double rattler_volume_fraction = 0;  ///< the same by volume [-]
     /// Fabric tensor <n n>; its trace is 1 [-]
     Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();

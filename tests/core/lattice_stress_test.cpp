@@ -173,16 +173,33 @@ TEST_P(LatticeStress, FabricOfASimpleCubicBlock) {
     EXPECT_LT(fabric.anisotropy, 1e-12);
 }
 
-TEST_P(LatticeStress, CornersOfAFreeBlockAreRattlers) {
-    Simulation sim(cubic_block(4, Vec3::Constant(1e-3 * R), Eigen::Matrix3d::Identity()), table());
-    sim.change().set_walls({});
+// Thornton (2000): (2C - N1)/(N - N0 - N1). 64 spheres of a free block with 144 contacts, the
+// corners with three each; beside them one that hangs on a corner and one that touches nothing.
+TEST_P(LatticeStress, SpheresWithLessThanTwoContactsAreRattlers) {
+    Scene scene = cubic_block(4, Vec3::Constant(1e-3 * R), Eigen::Matrix3d::Identity());
+    const std::size_t n = scene.spheres.size();
+    ASSERT_EQ(n, 64u);
+    std::size_t corner = 0;
+    for (std::size_t i = 1; i < n; ++i)
+        if (scene.spheres.position[i].sum() > scene.spheres.position[corner].sum()) corner = i;
+    const Vec3 outermost = scene.spheres.position[corner];
+    for (const double distance : {1.999 * R, 10 * R}) {
+        const std::size_t i = scene.spheres.size();
+        scene.spheres.resize(i + 1);
+        scene.spheres.position.set(i, outermost + distance * Vec3::Ones().normalized());
+        scene.spheres.radius[i] = R;
+        scene.spheres.mass[i] = scene.spheres.mass[0];
+        scene.spheres.normal_stiffness[i] = scene.spheres.normal_stiffness[0];
+    }
+    scene.walls.clear();
+    Simulation sim(std::move(scene), table());
     sim.compute_forces();
-    // 144 contacts; each of the 8 corners has three, spheres of the edges four.
     const Fabric fabric = measure_fabric(sim);
-    EXPECT_DOUBLE_EQ(fabric.coordination_number, 2 * 144.0 / 64);
-    EXPECT_DOUBLE_EQ(fabric.rattler_fraction, 8.0 / 64);
-    EXPECT_NEAR(fabric.rattler_volume_fraction, 8.0 / 64, 1e-14);  // sums of 64 terms
-    EXPECT_DOUBLE_EQ(fabric.mechanical_coordination_number, 2 * (144.0 - 24) / 56);
+    EXPECT_DOUBLE_EQ(fabric.coordination_number, 2 * 145.0 / 66);
+    EXPECT_DOUBLE_EQ(fabric.mechanical_coordination_number, (2 * 145.0 - 1) / (66 - 2));
+    EXPECT_GT(fabric.mechanical_coordination_number, fabric.coordination_number);
+    EXPECT_DOUBLE_EQ(fabric.rattler_fraction, 2.0 / 66);
+    EXPECT_NEAR(fabric.rattler_volume_fraction, 2.0 / 66, 1e-14);  // sums of 66 terms
 }
 
 GRAINFIELD_FOR_ALL_KERNELS(LatticeStress);

@@ -38,12 +38,12 @@ void print_packing(const packing::Packing& p) {
         fmt::format("porosity {:.4f}, mean stress {:.0f} Pa, compacted with friction {:.3f} rad",
                     p.block.porosity, p.block.mean_stress, p.block.compaction_friction_angle));
     print_row("porosity", fmt::format("{:.4f}", p.porosity));
-    print_row(
-        "coordination number",
-        fmt::format(
-            "{:.3f}, {:.3f} without rattlers ({:.1f} % of the spheres, {:.1f} % of the volume)",
-            p.fabric.coordination_number, p.fabric.mechanical_coordination_number,
-            100 * p.fabric.rattler_fraction, 100 * p.fabric.rattler_volume_fraction));
+    print_row("coordination number",
+              fmt::format("{:.3f}, {:.3f} mechanical: without the {:.1f} % of the spheres ({:.1f} "
+                          "% of the volume) with "
+                          "fewer than two contacts",
+                          p.fabric.coordination_number, p.fabric.mechanical_coordination_number,
+                          100 * p.fabric.rattler_fraction, 100 * p.fabric.rattler_volume_fraction));
     print_row("fabric anisotropy", fmt::format("{:.4f}", p.fabric.anisotropy));
     print_row("vertical stress", fmt::format("{:.4f} of gamma * depth, R2 = {:.5f}",
                                              p.profile.slope_ratio, p.profile.r2));

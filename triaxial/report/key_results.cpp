@@ -80,9 +80,10 @@ Table sample_table(const RunFolder& run) {
 Table packing_table(const RunFolder& run) {
     Builder p("As packed", run.packing ? &*run.packing : nullptr);
     p.number("coordination_number", "Coordination number", plain);
-    p.number("mechanical_coordination_number", "the same without rattlers", plain);
+    p.number("mechanical_coordination_number", "Mechanical coordination number (Thornton 2000)",
+             plain);
     p.number(
-        "rattler_fraction", "Rattlers (fewer than four contacts)",
+        "rattler_fraction", "Rattlers (fewer than two contacts)",
         [](double v) { return percent(v); }, "by number");
     p.number("rattler_volume_fraction", "Rattlers by volume", [](double v) { return percent(v); });
     p.number("fabric_anisotropy", "Anisotropy of contact normals", plain);
