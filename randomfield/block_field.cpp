@@ -77,7 +77,7 @@ std::shared_ptr<const Conditioning> make_conditioning(const FieldOptions& option
     return std::make_shared<const Conditioning>(
         grid, covariance, options.cross_correlation,
         cell_data(options.data, measurements, grid, covariance, options.cross_correlation,
-                  marginals),
+                  marginals, options.data_deviations),
         options.data);
 }
 

@@ -32,6 +32,8 @@ void FieldOptions::validate() const {
     require(std::abs(cross_correlation) <= 1.0, "field.cross_correlation",
             fmt::format("{}", cross_correlation),
             "must be in [-1, 1]: beyond, [[1, rho], [rho, 1]] is no correlation matrix");
+    require(positive(data_deviations), "field.data_deviations", fmt::format("{}", data_deviations),
+            "must be positive and finite");
     randomfield::validate(friction, Property::friction_angle, "field.friction");
     randomfield::validate(stiffness, Property::normal_stiffness, "field.stiffness");
 }

@@ -32,6 +32,9 @@ struct FieldOptions {
     double cross_correlation = 0.0;
     /// CSV of measured values to condition on (field_data.hpp); empty: none.
     std::string data;
+    /// Measured values further than this from their distribution are taken for mistakes, in
+    /// standard deviations of a cell's G [-].
+    double data_deviations = 6.0;
     /// Friction angle, Eq. (7) of Tran et al. unless another marginal is asked for.
     MarginalOptions friction{MarginalKind::bounded, 0.3, 0.9, 2.0, 0.6, 0.15};
     /// Normal stiffness, Eqs. (8)-(9) of Tran et al. unless another marginal is asked for.

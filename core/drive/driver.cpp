@@ -40,6 +40,11 @@ void Driver::check_kinetic_energy() {
         simulation_.time(), x.x(), x.y(), x.z()));
 }
 
+void Driver::say_exceeded() {
+    said_ = true;
+    monitor_.note("warning: " + control_.exceeded_text());
+}
+
 /// A broken state must not take the place of a good one.
 void Driver::check_before_save() {
     try {

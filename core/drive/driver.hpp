@@ -44,10 +44,10 @@ class Driver {
             }
             if (simulation_.steps() % watch_interval == 0 || simulation_.health().alarmed())
                 watch();
-        } catch (const SimulationError&) {
-            monitor_.ended_early(simulation_);
-            throw;
+        } catch (const SimulationError& error) {
+            fail(error.what());
         }
+        if (!said_ && control_.exceeded_limit() > 0) say_exceeded();
     }
 
     /// To be called between steps, where all state of the work is in its sections of the
@@ -75,19 +75,23 @@ class Driver {
     /// Throws SimulationError if the state is broken.
     void watch() { simulation_.health().check(); }
 
-    /// Ends a run that cannot reach what it should; the monitor hears of it first.
+    /// Ends a run that cannot reach what it should; the monitor hears of it first. A fixed step
+    /// above the stability limit is named as well.
     [[noreturn]] void fail(const std::string& what) {
         monitor_.ended_early(simulation_);
-        throw SimulationError(what);
+        const std::string step = control_.exceeded_text();
+        throw SimulationError(step.empty() ? what : what + "; " + step);
     }
 
     Simulation& simulation() { return simulation_; }
     StepControl& control() { return control_; }
+    const StepControl& control() const { return control_; }
     Monitor& monitor() { return monitor_; }
     Checkpoint* checkpoint() { return checkpoint_; }
 
   private:
     void check_kinetic_energy();
+    void say_exceeded();
     void check_before_save();
     [[noreturn]] void stop();
     void save();
@@ -99,6 +103,7 @@ class Driver {
     static constexpr std::int64_t energy_interval = 200;  // [steps]
     std::vector<EnergyRow>* energies_ = nullptr;
     std::int64_t next_energy_ = 0;
+    bool said_ = false;  // that the step is above the limit
     std::optional<double> most_kinetic_;  // [J]
     std::int64_t next_kinetic_ = 0;
     Checkpoint::Section section_;  // last: it loads what stands above

@@ -1,5 +1,7 @@
 #include "core/drive/step_control.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 #include <vector>
@@ -12,6 +14,9 @@ namespace {
 std::int64_t estimate_interval(std::size_t spheres) {
     return spheres > 20000 ? 400 : 20;
 }
+
+/// Steps between two looks at a fixed step.
+constexpr std::int64_t fixed_interval = 200;
 
 constexpr int full_rounds = 5;                             // of Lanczos, from scratch
 constexpr int update_rounds = 1;                           // starting from the last mode
@@ -35,7 +40,10 @@ double StepControl::frequency(const Simulation& simulation, int rounds) {
 
 double StepControl::next(Simulation& simulation) {
     const bool scaled = options_.mass_scaling > 1.0;
-    if (options_.step && !scaled) return *options_.step;
+    if (options_.step && !scaled) {
+        if (due(simulation)) watch_fixed_step(simulation);
+        return *options_.step;
+    }
     if (due(simulation)) {
         const bool first = next_estimate_ < 0;
         omega_ = frequency(simulation, first ? full_rounds : update_rounds);
@@ -51,6 +59,25 @@ double StepControl::next(Simulation& simulation) {
     const double governing = scaled ? std::max(omega_, omega_target_) : omega_;
     step_ = options_.step ? *options_.step : options_.safety * 2.0 / governing;
     return step_;
+}
+
+/// Leaves all of the state as it is, omega_ and limit() too: nothing follows from what is found.
+void StepControl::watch_fixed_step(const Simulation& simulation) {
+    const bool first = next_estimate_ < 0;
+    next_estimate_ = simulation.steps() + fixed_interval;
+    const double omega = estimator_.estimate(simulation, first ? full_rounds : update_rounds,
+                                             first ? full_iterations : update_iterations);
+    const double limit = omega > 0 ? 2.0 / omega : 0.0;
+    // The estimate is within a per cent.
+    const bool above = limit > 0 && *options_.step > 1.01 * limit;
+    if (above && (exceeded_ == 0 || limit < exceeded_)) exceeded_ = limit;
+}
+
+std::string StepControl::exceeded_text() const {
+    if (!(exceeded_ > 0)) return {};
+    return fmt::format("the fixed time step of {:.4g} s is above the stability limit 2/omega_max of "
+                       "{:.4g} s",
+                       *options_.step, exceeded_);
 }
 
 void StepControl::scale_masses(Simulation& simulation) {

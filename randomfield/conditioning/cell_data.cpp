@@ -46,7 +46,9 @@ using Pools = std::map<std::pair<Property, std::size_t>, Pool>;
 /// Checks measurements one by one and sorts them by cell.
 class Sorter {
   public:
-    Sorter(const std::filesystem::path& path, const GridSpec& grid) : path_(path), grid_(grid) {}
+    /// gamma: variance of a cell's G [-].
+    Sorter(const std::filesystem::path& path, const GridSpec& grid, double gamma, double furthest)
+        : path_(path), grid_(grid), deviation_(std::sqrt(gamma)), furthest_(furthest) {}
 
     void add(const Measurement& m, const RowMarginals* rows) {
         const PropertyLimits limits = limits_of(m.property);
@@ -60,6 +62,7 @@ class Sorter {
         pool.marginal = &rows->row(static_cast<std::int32_t>(cell / nx % ny));
         pool.all.push_back(&m);
         m.error > 0.0 ? check_error(m, *pool.marginal) : add_exact(m, pool);
+        check_distance(m, *pool.marginal);
     }
     [[nodiscard]] const Pools& pools() const { return pools_; }
 
@@ -68,6 +71,27 @@ class Sorter {
     }
 
   private:
+    /// A value in other units is a possible one as well, but a very unlikely one. One with an error
+    /// may lie as many of those nearer.
+    void check_distance(const Measurement& m, const Marginal& marginal) const {
+        if (!std::isfinite(furthest_)) return;
+        const double reach = furthest_ * deviation_, median = marginal(0.0);
+        const double low = marginal(-reach), high = marginal(reach);
+        const double within = furthest_ * m.error;
+        const double nearest = m.value < median ? std::min(m.value + within, median)
+                                                : std::max(m.value - within, median);
+        if (nearest >= low && nearest <= high) return;
+        const PropertyLimits limits = limits_of(m.property);
+        const double score = std::abs(marginal.score(m.value)) / deviation_;
+        fail(m,
+             fmt::format(
+                 "value = {:.6g}: {} standard deviations from the distribution of {} here, "
+                 "whose median is {:.4g} {}; allowed are {:g}, which end at {:.4g} and "
+                 "{:.4g} {}: is it in {}? If it is meant, give field.data_deviations",
+                 m.value, std::isfinite(score) ? fmt::format("{:.3g}", score) : "more than 38",
+                 limits.key, median, limits.unit, furthest_, low, high, limits.unit, limits.unit));
+    }
+
     void check_error(const Measurement& m, const Marginal& marginal) const {
         const double least = least_error(marginal, m.value);
         if (m.error < least)
@@ -95,6 +119,7 @@ class Sorter {
 
     const std::filesystem::path& path_;
     const GridSpec& grid_;
+    double deviation_, furthest_;
     Pools pools_;
 };
 
@@ -119,8 +144,9 @@ std::vector<double> prior_of(const std::vector<CellDatum>& data, const GridSpec&
 std::vector<CellDatum> cell_data(const std::filesystem::path& path,
                                  const std::vector<Measurement>& measurements, const GridSpec& grid,
                                  const LocalAverageCovariance& covariance, double correlation,
-                                 const std::function<const RowMarginals*(Property)>& marginals) {
-    Sorter sorter(path, grid);
+                                 const std::function<const RowMarginals*(Property)>& marginals,
+                                 double furthest) {
+    Sorter sorter(path, grid, covariance.gamma(), furthest);
     for (const Measurement& m : measurements) sorter.add(m, marginals(m.property));
     std::vector<CellDatum> data;
     std::vector<CellKnowledge> cells;

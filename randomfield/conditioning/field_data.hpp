@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -50,10 +51,13 @@ struct CellDatum {
 /// between the two properties; marginals(property): nullptr where that property is not random.
 /// InputError with file and line: a property that is not random, an exact value outside the
 /// marginal's range, a value further outside than its error explains, an error too small to be told
-/// from 0, two different exact values in one cell, too many cells.
+/// from 0, two different exact values in one cell, too many cells; a value further than
+/// furthest [-] from the distribution of its cell, and its errors with it: likely one in
+/// other units.
 std::vector<CellDatum> cell_data(const std::filesystem::path& path,
                                  const std::vector<Measurement>& measurements, const GridSpec& grid,
                                  const LocalAverageCovariance& covariance, double correlation,
-                                 const std::function<const RowMarginals*(Property)>& marginals);
+                                 const std::function<const RowMarginals*(Property)>& marginals,
+                                 double furthest = std::numeric_limits<double>::infinity());
 
 }  // namespace grainfield::randomfield

@@ -75,6 +75,7 @@ const std::vector<BadValue> bad_values{
     {"field", "cross_correlation", "nan", "no negative eigenvalue"},
     {"field", "data", "3", "the name of a CSV file"},
     {"field", "data", "\"\"", "the name of a CSV file"},
+    {"field", "data_deviations", "0", "a number > 0"},
     {"field.friction", "marginal", "\"gamma\"", "\"bounded\", \"lognormal\", \"normal\""},
     {"field.friction", "marginal", "0", "one of"},
     {"field.friction", "mean", "1.6", "in (0, pi/2)"},

@@ -39,6 +39,7 @@ correlation_length = [5, 0.5, 6.0]
 stage0_cells = 512
 cross_correlation = 0.5
 data = "/data/cpt.csv"
+data_deviations = 40
 stiffness.minimum = 1e8
 stiffness.maximum = 9e9
 stiffness.s = 3
@@ -90,6 +91,7 @@ inline Config changed_config() {
     c.field.stage0_cells = 512;
     c.field.cross_correlation = 0.5;
     c.field.data = "/data/cpt.csv";
+    c.field.data_deviations = 40;
     using randomfield::MarginalKind;
     c.field.friction = {MarginalKind::truncated_normal, 0.2, 0.8, 3, 0.5, 0.2, 0.01, true};
     c.field.stiffness = {MarginalKind::beta, 1e8, 9e9, 3, 8e8, 1.6, -1e7, true};

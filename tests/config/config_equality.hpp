@@ -45,6 +45,7 @@ inline void expect_equal(const Config& a, const Config& b) {
     EXPECT_EQ(a.field.stage0_cells, b.field.stage0_cells);
     EXPECT_EQ(a.field.cross_correlation, b.field.cross_correlation);
     EXPECT_EQ(a.field.data, b.field.data);
+    EXPECT_EQ(a.field.data_deviations, b.field.data_deviations);
     expect_equal(a.field.friction, b.field.friction);
     expect_equal(a.field.stiffness, b.field.stiffness);
     EXPECT_EQ(a.triaxial.confining_stress, b.triaxial.confining_stress);

@@ -2,6 +2,8 @@
 
 #include "core/drive/step_control.hpp"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,6 +49,29 @@ TEST_P(StepChoice, LooksAgainAfterTwentyStepsOrWhenTold) {
     EXPECT_FALSE(control.due(sim));
     control.reset();
     EXPECT_TRUE(control.due(sim));
+}
+
+// One sphere on a wall: omega^2 = K_n/m (k_s below k_n/3.5), the limit 2/omega.
+TEST_P(StepChoice, SaysThatAFixedStepIsAboveTheLimit) {
+    Scene scene = scene_of({Ball{.radius = 0.1, .stiffness = 1e7}}, 0.1);
+    scene.walls = {plane(Vec3(0, -0.0999999, 0), Vec3::UnitY())};
+    Simulation sim(scene, table());
+    sim.compute_forces();
+    const double limit = 2 / FrequencyEstimator().estimate(sim);
+    for (const double share : {0.9, 1.1}) {
+        StepControl control({.step = share * limit});
+        EXPECT_TRUE(control.due(sim));
+        EXPECT_EQ(control.next(sim), share * limit);
+        EXPECT_FALSE(control.due(sim));
+        EXPECT_EQ(control.limit(), 0.0) << "nothing is steered by it";
+        EXPECT_NEAR(control.exceeded_limit(), share > 1 ? limit : 0, 1e-3 * limit);
+        EXPECT_EQ(control.exceeded_text().empty(), share < 1);
+    }
+    StepControl control({.step = 1.1 * limit});
+    control.next(sim);
+    EXPECT_THAT(control.exceeded_text(),
+                testing::AllOf(testing::HasSubstr(fmt::format("{:.4g} s is above", 1.1 * limit)),
+                               testing::HasSubstr(fmt::format("2/omega_max of {:.3g}", limit))));
 }
 
 TEST_P(StepChoice, FollowsNeighboursThatAreNewBetweenTwoEstimates) {

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -61,6 +63,34 @@ TEST_F(FieldData, ReadsBothHeaders) {
 
     options("x,y,z,value,error\n0,0,0,0.5,0.01\n");
     EXPECT_EQ(read_measurements(file_, GridSpec{}, friction).front().property, friction);
+}
+
+// 0.5 where 5e8 Pa was meant gave neighbours of 35 Pa.
+TEST_F(FieldData, RefusesValuesFarFromTheirDistributionUnlessAskedFor) {
+    const std::string mistaken = std::string(full) + "1,1,1,normal_stiffness,0.5,0\n";
+    EXPECT_THAT(
+        refusal(mistaken),
+        testing::AllOf(HasSubstr(":2: value = 0.5: "), HasSubstr("allowed are 6"),
+                       HasSubstr("is it in Pa? If it is meant, give field.data_deviations")));
+    FieldOptions meant = options(mistaken);
+    meant.data_deviations = 60;
+    EXPECT_NO_THROW(FieldGenerator(GridSpec{}, meant));
+    // Lognormal: the median times exp(+-6 s sqrt(gamma)), s^2 = ln(1 + 0.64).
+    const FieldGenerator usual(GridSpec{},
+                               options(std::string(full) + "1,1,1,friction_angle,0.6,0\n"));
+    const double s = std::sqrt(std::log(1.64) * usual.gamma());
+    const double median = usual.marginals(stiffness).row(0)(0.0);
+    for (const double side : {-1.0, 1.0}) {
+        const auto line = [&](double deviations, double errors) {
+            const double value = median * std::exp(side * deviations * s);
+            return fmt::format("{}1,1,1,normal_stiffness,{},{}\n", full, value, errors * value);
+        };
+        EXPECT_NO_THROW(FieldGenerator(GridSpec{}, options(line(5.99, 0))));
+        EXPECT_THAT(refusal(line(6.01, 0)), HasSubstr("6.01 standard deviations"));
+        EXPECT_NO_THROW(FieldGenerator(GridSpec{}, options(line(6.01, 0.1))));
+    }
+    EXPECT_THAT(refusal(std::string(full) + "1,1,1,normal_stiffness,0.5,0.1\n"),
+                HasSubstr("standard deviations from the distribution of field.stiffness"));
 }
 
 TEST_F(FieldData, RefusesWithFileAndLine) {

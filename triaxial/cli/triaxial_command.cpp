@@ -9,6 +9,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/drive/step_control.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/folder.hpp"
 #include "core/files/json_text.hpp"
@@ -95,6 +96,15 @@ struct Run {
     std::optional<std::string> packing;
     std::int64_t realization = 0;
 };
+
+/// A fixed step that the contacts at the end do not allow; empty: it is automatic, or short enough.
+std::string step_warning(core::Simulation& simulation, const core::TimeOptions& time) {
+    if (!time.step || time.mass_scaling > 1) return {};
+    simulation.compute_forces();
+    core::StepControl control(time);
+    (void)control.next(simulation);
+    return control.exceeded_text();
+}
 
 /// What was asked for, completed by the checkpoint where the run resumes.
 Run prepare_run(const TriaxialArguments& arguments, const fs::path& checkpoint, Session& session) {
@@ -216,6 +226,8 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
 
     print_row("spheres", fmt::format("{}, {} contacts when shear began",
                                      simulation.spheres().size(), result.contacts));
+    if (const std::string warning = step_warning(simulation, config.time); !warning.empty())
+        print_row("warning: time step", warning);
     print_row("density", density_text(simulation.spheres()));
     print_test(result, config, field);
     const double total = summary["wall_seconds"]["total"];

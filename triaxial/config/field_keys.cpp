@@ -42,7 +42,7 @@ void add_keys(Keys& keys, randomfield::MarginalOptions& marginal, const std::str
 
 void add_keys(Keys& keys, randomfield::FieldOptions& field) {
     auto& [variable, method, correlation, seed, correlation_length, stage0_cells, cross_correlation,
-           data, friction, stiffness] = field;
+           data, data_deviations, friction, stiffness] = field;
     keys.push_back({"field.variable", slot(variable, variable_names),
                     "\"none\", \"friction\", \"stiffness\", \"both\""});
     keys.push_back({"field.method", slot(method, method_names),
@@ -59,6 +59,8 @@ void add_keys(Keys& keys, randomfield::FieldOptions& field) {
                     "of friction angle and stiffness, where both are random"});
     keys.push_back({"field.data", optional_text_slot(data, "the name of a CSV file"),
                     "optional: CSV of measured values to condition on"});
+    keys.push_back({"field.data_deviations", slot(data_deviations, positive),
+                    "measured values further from their distribution are refused"});
     add_keys(keys, friction, "field.friction", "rad", below_right_angle,
              {0, below_right_angle.high, false, false, "in (0, pi/2)"});
     add_keys(keys, stiffness, "field.stiffness", "Pa", stiffness_range, stiffness_range);

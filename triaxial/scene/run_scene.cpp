@@ -87,6 +87,8 @@ class SceneRun {
     }
 
     double wall_seconds() const { return watch_.seconds(); }
+    /// Nothing where the fixed step was never above the stability limit, or there is none.
+    std::string step_warning() const { return driver_.control().exceeded_text(); }
 
   private:
     template <class Archive>
@@ -142,8 +144,9 @@ SceneSummary run_scene(const SceneFile& file, const std::filesystem::path& sourc
         run.run();
     } catch (const SimulationError& error) {
         const auto saved = save_state(simulation, out);
-        throw SimulationError(
-            fmt::format("{}; the state is saved in {}", error.what(), saved.string()));
+        const std::string step = run.step_warning();
+        throw SimulationError(fmt::format("{}{}{}; the state is saved in {}", error.what(),
+                                          step.empty() ? "" : "; ", step, saved.string()));
     } catch (const Interrupted& error) {
         throw Interrupted(fmt::format("{} at time {:g} s", error.what(), run.time()));
     }
@@ -155,6 +158,8 @@ SceneSummary run_scene(const SceneFile& file, const std::filesystem::path& sourc
     summary.steps = simulation.steps();
     summary.time = run.time();
     summary.time_step = file.step ? *file.step : summary.time / double(summary.steps);
+    if (const std::string warning = run.step_warning(); !warning.empty())
+        summary.warnings.push_back(warning);
     summary.energy_closing_error = output.energy_closing_error();
     summary.wall_seconds = run.wall_seconds();
     summary.particle_steps_per_second =

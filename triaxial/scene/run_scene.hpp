@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/base/monitor.hpp"
 #include "core/state/checkpoint.hpp"
@@ -22,6 +23,7 @@ struct SceneSummary {
     double wall_seconds = 0;               ///< of the stepping and its output [s]
     double particle_steps_per_second = 0;  ///< [1/s]
     std::string state_hash, isa, precision;
+    std::vector<std::string> warnings;  ///< sentences on what makes the numbers doubtful
     int threads = 1;  ///< [-]
 };
 

@@ -49,6 +49,7 @@ std::string summary_text(const SceneSummary& s) {
         {"precision", s.precision},
         {"threads", s.threads},
         {"version", GRAINFIELD_VERSION},
+        {"warnings", s.warnings},
     };
     return json.dump(2) + "\n";
 }
