@@ -103,7 +103,7 @@ class Driver {
     static constexpr std::int64_t energy_interval = 200;  // [steps]
     std::vector<EnergyRow>* energies_ = nullptr;
     std::int64_t next_energy_ = 0;
-    bool said_ = false;  // that the step is above the limit
+    bool said_ = false;                   // that the step is above the limit
     std::optional<double> most_kinetic_;  // [J]
     std::int64_t next_kinetic_ = 0;
     Checkpoint::Section section_;  // last: it loads what stands above

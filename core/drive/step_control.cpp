@@ -75,9 +75,10 @@ void StepControl::watch_fixed_step(const Simulation& simulation) {
 
 std::string StepControl::exceeded_text() const {
     if (!(exceeded_ > 0)) return {};
-    return fmt::format("the fixed time step of {:.4g} s is above the stability limit 2/omega_max of "
-                       "{:.4g} s",
-                       *options_.step, exceeded_);
+    return fmt::format(
+        "the fixed time step of {:.4g} s is above the stability limit 2/omega_max of "
+        "{:.4g} s",
+        *options_.step, exceeded_);
 }
 
 void StepControl::scale_masses(Simulation& simulation) {

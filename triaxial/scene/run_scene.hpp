@@ -24,7 +24,7 @@ struct SceneSummary {
     double particle_steps_per_second = 0;  ///< [1/s]
     std::string state_hash, isa, precision;
     std::vector<std::string> warnings;  ///< sentences on what makes the numbers doubtful
-    int threads = 1;  ///< [-]
+    int threads = 1;                    ///< [-]
 };
 
 /// Runs the scene and writes trajectory.csv, energy.csv, contacts.csv and summary.json into `out`:
