@@ -66,6 +66,26 @@ TEST_F(Folder, ResultsAreSortedAndEachRowStandsOnce) {
     EXPECT_EQ(open(all).finished().size(), 4u);
 }
 
+TEST_F(Folder, ResultsHaveAColumnForEverySweptKey) {
+    const auto all = cases(
+        "[montecarlo.sweep]\n'field.stiffness.cov' = [0.4, 0.8]\n"
+        "[[montecarlo.case]]\nname = 'long'\n"
+        "set = { 'field.correlation_length' = [5.0, 0.5, 5.0], 'packing.spheres' = 100 }\n"
+        "[[montecarlo.case]]\nname = 'paper'\nset = { 'field.method' = 'cholesky' }\n");
+    CampaignFolder folder = open(all);
+    Row failed = row(1, "paper cov=0.4");
+    failed.failed = true;
+    folder.append({{row(0, "long cov=0.8"), failed}});
+    folder.write_results();
+    const std::string text = results();
+    EXPECT_THAT(text, HasSubstr("wall_seconds,state_hash,field.correlation_length,field.method,"
+                                "field.stiffness.cov,packing.spheres\n"));
+    EXPECT_THAT(text, HasSubstr("long cov=0.8,0,0,done,0,10000000,0,0,0,0,,5x0.5x5,las,0.8,100\n"));
+    EXPECT_THAT(text, HasSubstr("paper cov=0.4,1,0,failed,,,,,,0,,10x1x10,cholesky,0.4,\n"));
+    EXPECT_THAT(core::read_whole_file(folder_ / "out" / "deterministic.csv"),
+                testing::EndsWith("field.stiffness.cov,packing.spheres\n"));
+}
+
 TEST_F(Folder, AnotherCampaignIsRefusedByName) {
     { open(cases()); }
     EXPECT_THAT(message_of<InputError>([&] { open(cases("particle.density = 2500\n")); }),

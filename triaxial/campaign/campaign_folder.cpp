@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "core/base/errors.hpp"
@@ -14,6 +15,7 @@
 #include "core/files/text_file.hpp"
 #include "core/kernel_choice.hpp"
 #include "triaxial/campaign/stopping.hpp"
+#include "triaxial/config/campaign_keys.hpp"
 #include "triaxial/config/write_config.hpp"
 
 namespace grainfield::triaxial {
@@ -242,6 +244,15 @@ fs::path CampaignFolder::state_name(const Row& row) {
     return fs::path("failed") / fmt::format("{}-{}.h5", file_name(row.case_name), row.realization);
 }
 
+SweptColumns CampaignFolder::swept_columns() const {
+    std::set<std::string> keys;
+    for (const CampaignCase& one : cases_) keys.insert(one.swept.begin(), one.swept.end());
+    SweptColumns swept{{keys.begin(), keys.end()}, {}};
+    for (const CampaignCase& one : cases_)
+        swept.values[one.name] = table_texts(one.config, swept.keys);
+    return swept;
+}
+
 std::map<RowPlace, Row> CampaignFolder::write_results() const {
     const FileLock lock = lock_results();
     std::map<RowPlace, Row> all = finished();
@@ -261,8 +272,9 @@ std::map<RowPlace, Row> CampaignFolder::write_results() const {
                                     kept ? state_name(row).string() : "");
         }
     }
-    core::write_file_atomically(path_ / "results.csv", rows_csv(rows));
-    core::write_file_atomically(path_ / "deterministic.csv", rows_csv(deterministic));
+    const SweptColumns swept = swept_columns();
+    core::write_file_atomically(path_ / "results.csv", rows_csv(rows, swept));
+    core::write_file_atomically(path_ / "deterministic.csv", rows_csv(deterministic, swept));
     core::write_file_atomically(path_ / "failures.csv", failures);
     return all;
 }

@@ -54,6 +54,7 @@ class CampaignFolder {
     static std::vector<FileLock> lock_shard(const std::filesystem::path& folder,
                                             const Shard& shard);
     FileLock lock_results() const;
+    SweptColumns swept_columns() const;
     /// Throws if the folder is another campaign's; else writes campaign.json and cases/.
     void check_identity() const;
 

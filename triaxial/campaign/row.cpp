@@ -12,18 +12,23 @@ bool row_before(const Row& a, const Row& b) {
     return std::tie(a.case_name, a.realization) < std::tie(b.case_name, b.realization);
 }
 
-std::string rows_csv(std::span<const Row> rows) {
+std::string rows_csv(std::span<const Row> rows, const SweptColumns& swept) {
     std::string text =
         "case,realization,seed,status,peak_deviator_stress_Pa,E50_Pa,friction_angle_rad,"
-        "axial_strain_at_peak,steps,wall_seconds,state_hash\n";
+        "axial_strain_at_peak,steps,wall_seconds,state_hash";
+    for (const std::string& key : swept.keys) text += "," + key;
+    text += '\n';
     for (const Row& r : rows) {
         fmt::format_to(std::back_inserter(text), "{},{},{},", r.case_name, r.realization, r.seed);
         if (r.failed)
-            fmt::format_to(std::back_inserter(text), "failed,,,,,,{},\n", r.wall_seconds);
+            fmt::format_to(std::back_inserter(text), "failed,,,,,,{},", r.wall_seconds);
         else
-            fmt::format_to(std::back_inserter(text), "done,{},{},{},{},{},{},{}\n",
+            fmt::format_to(std::back_inserter(text), "done,{},{},{},{},{},{},{}",
                            r.peak_deviator_stress, r.E50, r.friction_angle, r.axial_strain_at_peak,
                            r.steps, r.wall_seconds, r.state_hash);
+        if (!swept.keys.empty())
+            for (const std::string& value : swept.values.at(r.case_name)) text += "," + value;
+        text += '\n';
     }
     return text;
 }

@@ -2,9 +2,11 @@
 // One row of a campaign: what one realization gave, and how it stands in files.
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace grainfield::triaxial {
 
@@ -31,8 +33,14 @@ struct Row {
 /// Order of results.csv: by case, then by realization.
 bool row_before(const Row& a, const Row& b);
 
+/// Columns behind the others: keys that cases differ in, and their values, case by case.
+struct SweptColumns {
+    std::vector<std::string> keys;
+    std::map<std::string, std::vector<std::string>> values;  ///< as many, of each case's name
+};
+
 /// results.csv of the contract: header and rows as they come; numbers of failed rows are empty.
-std::string rows_csv(std::span<const Row> rows);
+std::string rows_csv(std::span<const Row> rows, const SweptColumns& swept = {});
 
 /// A row as one line without its end, for the journal; numbers come back bit for bit.
 std::string row_line(const Row& row);

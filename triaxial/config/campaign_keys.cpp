@@ -163,4 +163,18 @@ std::vector<CaseKeys> read_campaign(TomlReader& reader) {
     return cases;
 }
 
+std::vector<std::string> table_texts(const Config& config, const std::vector<std::string>& keys) {
+    Config copy = config;  // slots refer to something they may set
+    const Keys known = config_keys(copy);
+    std::vector<std::string> texts;
+    for (const std::string& key : keys) {
+        const auto found = std::ranges::find(known, key, &ConfigKey::path);
+        const auto value = found == known.end() ? nullptr : found->slot.get();
+        std::string& text = texts.emplace_back(value ? value_name(*value) : "");
+        std::ranges::replace_if(
+            text, [](char c) { return std::strchr(",\"\r\n", c) != nullptr; }, '_');
+    }
+    return texts;
+}
+
 }  // namespace grainfield::triaxial

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "triaxial/config/config.hpp"
 #include "triaxial/config/toml_reader.hpp"
 
 namespace grainfield::triaxial {
@@ -20,5 +21,9 @@ struct CaseKeys {
 /// with the sweep: cases in the order of the file, swept keys by name, the last the fastest; one
 /// case `base` where neither is given. Throws InputError.
 std::vector<CaseKeys> read_campaign(TomlReader& reader);
+
+/// Values of keys in a config as tables have them: 5x0.5x5 for [5, 0.5, 5], "" for one not set;
+/// nothing in them separates columns or lines.
+std::vector<std::string> table_texts(const Config& config, const std::vector<std::string>& keys);
 
 }  // namespace grainfield::triaxial

@@ -47,7 +47,8 @@ class ConfigReader {
         std::vector<CampaignCase> campaign;
         for (const CaseKeys& keys : cases_) try {
                 campaign.push_back({keys.name, case_config(keys.values), given()});
-                for (const auto& [path, value] : keys.values) campaign.back().given.insert(path);
+                for (const auto& [path, value] : keys.values) campaign.back().swept.insert(path);
+                campaign.back().given.merge(std::set(campaign.back().swept));
             } catch (const InputError& error) {
                 throw InputError(fmt::format("case \"{}\": {}", keys.name, error.what()));
             }

@@ -35,6 +35,7 @@ struct CampaignCase {
     std::string name;
     Config config;
     std::set<std::string> given = {};  ///< keys that file, overrides and case give
+    std::set<std::string> swept = {};  ///< those that the sweep or the case itself sets
 };
 
 /// The cases of a campaign, each checked as a config of its own: [[montecarlo.case]] crossed with
