@@ -140,6 +140,27 @@ TEST(Report, FitsTheEnvelopeThroughCompanions) {
     EXPECT_THAT(page, HasSubstr("φ = 28.6° (0.5000 rad)"));
 }
 
+// A field and none are two soils: the line through both would have a cohesion that neither has.
+TEST(Report, FitsNoEnvelopeThroughRunsThatCannotBeCompared) {
+    const TestFolder folder;
+    const std::array companions{folder.path() / "field", folder.path() / "small",
+                                folder.path() / "at-200"};
+    fixture::write_run(folder.path() / "at-100", {});
+    fixture::write_run(companions[0],
+                       {.confining_stress = 200e3, .field = fixture::Field::stiffness});
+    fixture::write_run(companions[1], {.confining_stress = 200e3, .blocks = {1, 2, 1}});
+    fixture::write_run(companions[2], {.confining_stress = 200e3});
+    const std::string page = fixture::read_file(write_report(folder.path() / "at-100", companions));
+    EXPECT_THAT(page, HasSubstr("Run “field” cannot be compared with this one"));
+    EXPECT_THAT(page, HasSubstr("random field: none here, stiffness there"));
+    EXPECT_THAT(page, HasSubstr("Run “small” cannot be compared with this one"));
+    EXPECT_THAT(page, HasSubstr("Mohr circles at peak strength of 2 runs"));
+    const std::string alone =
+        fixture::read_file(write_report(folder.path() / "at-100", std::span(companions).first(1)));
+    EXPECT_THAT(alone,
+                HasSubstr("Whether the intercept is zero can only be told from runs at other"));
+}
+
 TEST(Report, RefusesCompanionsAtTheSameConfiningStress) {
     const TestFolder folder;
     fixture::write_run(folder.path(), {});

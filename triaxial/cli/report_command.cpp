@@ -10,6 +10,7 @@
 #include "triaxial/report/campaign/campaign_data.hpp"
 #include "triaxial/report/campaign/campaign_report.hpp"
 #include "triaxial/report/report.hpp"
+#include "triaxial/report/run_folder.hpp"
 
 namespace grainfield::triaxial {
 namespace {
@@ -26,6 +27,13 @@ void run_report(const ReportArguments& arguments, Session& session) {
                                                         arguments.companions.end());
     if (!report::is_campaign(arguments.folder)) {
         print_row("report", write_report(arguments.folder, companions).string());
+        for (const auto& companion : companions) {
+            const std::string difference = report::soil_difference(
+                report::read_mohr_circle(arguments.folder), report::read_mohr_circle(companion));
+            if (!difference.empty())
+                print_row("not comparable", fmt::format("{}, left out of the envelope: {}",
+                                                        companion.string(), difference));
+        }
         return;
     }
     if (!companions.empty())

@@ -9,6 +9,17 @@
 
 namespace grainfield::triaxial::report {
 
+std::string soil_difference(const MohrCircle& here, const MohrCircle& there) {
+    std::string text;
+    for (const auto& [name, value] : here.soil) {
+        const auto other = there.soil.find(name);
+        if (other == there.soil.end() || other->second == value) continue;
+        text += fmt::format("{}{}: {} here, {} there", text.empty() ? "" : "; ", name, value,
+                            other->second);
+    }
+    return text;
+}
+
 Envelope envelope_through_origin(const MohrCircle& circle) {
     return {.friction_angle = std::asin(circle.radius() / circle.centre())};
 }

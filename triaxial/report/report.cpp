@@ -58,9 +58,23 @@ std::string run_page(const RunFolder& run, std::span<const MohrCircle> companion
     page.section("Key results");
     page.tables(key_tables(run));
     page.section("Stress and strain");
-    const MohrCircle circle{run.results.confining_stress, run.results.peak_deviator_stress, folder};
+    const MohrCircle circle{run.results.confining_stress, run.results.peak_deviator_stress, folder,
+                            soil_of(run.summary)};
+    std::vector<MohrCircle> comparable;
+    for (const MohrCircle& companion : companions) {
+        const std::string difference = soil_difference(circle, companion);
+        if (difference.empty()) {
+            comparable.push_back(companion);
+            continue;
+        }
+        page.paragraph(fmt::format("Run “{}” cannot be compared with this one and is left out of "
+                                   "the Mohr circles: {}. One envelope through both would be that "
+                                   "of no soil.",
+                                   escape(companion.name), escape(difference)),
+                       "warning");
+    }
     page.figures(
-        std::array{stress_strain_figure(gnuplot, run), mohr_figure(gnuplot, circle, companions)});
+        std::array{stress_strain_figure(gnuplot, run), mohr_figure(gnuplot, circle, comparable)});
     page.figures(std::array{servo_figure(gnuplot, run)}, "wide");
     if (!run.energies.empty()) {
         page.section("Energy");

@@ -88,7 +88,23 @@ MohrCircle read_mohr_circle(const std::filesystem::path& dir) {
     const JsonFile summary(dir / "summary.json");
     const KeyResults results = key_results(summary);
     auto name = dir.filename().empty() ? dir.parent_path().filename() : dir.filename();
-    return {results.confining_stress, results.peak_deviator_stress, name.string()};
+    return {results.confining_stress, results.peak_deviator_stress, name.string(),
+            soil_of(summary)};
+}
+
+std::map<std::string, std::string> soil_of(const JsonFile& summary) {
+    std::map<std::string, std::string> soil;
+    if (const auto name = summary.optional_text("case"); name && !name->empty())
+        soil["random field"] = *name == "deterministic" ? "none" : *name;
+    const auto add = [&](const char* key, const char* name, int digits) {
+        if (const auto value = summary.optional_number(key))
+            soil[name] = fmt::format("{:.{}g}", *value, digits);
+    };
+    add("field.realization", "realization of the field", 15);
+    add("field.seed", "seed of the field", 20);
+    add("particles", "spheres", 15);
+    add("porosity", "porosity", 4);
+    return soil;
 }
 
 std::string case_in_words(const JsonFile& summary) {

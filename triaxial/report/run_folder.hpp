@@ -42,6 +42,9 @@ RunFolder read_run_folder(const std::filesystem::path& dir);
 /// Only what the Mohr circle of a run needs, from its summary.json.
 MohrCircle read_mohr_circle(const std::filesystem::path& dir);
 
+/// What a run's summary says of its soil (MohrCircle::soil).
+std::map<std::string, std::string> soil_of(const JsonFile& summary);
+
 /// "friction", "stiffness" and the like in words for the page's title.
 std::string case_in_words(const JsonFile& summary);
 
