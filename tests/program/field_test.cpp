@@ -178,7 +178,8 @@ TEST(Field, RefusesDataThatCannotBeHonoured) {
     };
     EXPECT_THAT(refusal("correlation_length = [1e13, 1e13, 1e13]\ndata = \"at-odds.csv\"\n"),
                 HasSubstr("at-odds.csv:"));
-    EXPECT_THAT(refusal("data = \"high.csv\"\n[field.friction]\nmarginal = \"normal\"\n"),
+    EXPECT_THAT(refusal("data = \"high.csv\"\ndata_deviations = 20\n[field.friction]\n"
+                        "marginal = \"normal\"\n"),
                 testing::AllOf(HasSubstr("high.csv: with these values field.friction.marginal"),
                                HasSubstr("allowed is in [0, pi/2)")));
 }

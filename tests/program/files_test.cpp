@@ -101,6 +101,50 @@ TEST(Convert, SaysWhatTheTargetCannotHold) {
               "#format x_y_z_r\n0.1 0.2 0.30000000000000004 0.1\n1.1 0.2 0.3 0.05\n");
 }
 
+// Walls start at the spheres, whatever lid a file of another program has; masses are the file's.
+TEST(GivenPacking, IsTakenAsItIs) {
+    const Workplace place;
+    std::vector<std::string> pack{"pack", "--out", place.path("P.h5")};
+    pack.insert(pack.end(), small_packing.begin(), small_packing.end());
+    ASSERT_EQ(place.run(pack).code, 0);
+    const auto triaxial = [&](const std::string& packing, const std::vector<std::string>& more) {
+        std::vector<std::string> words{"triaxial",
+                                       "--packing",
+                                       place.path(packing),
+                                       "--threads",
+                                       "1",
+                                       "--set",
+                                       "triaxial.max_axial_strain=0.001",
+                                       "--out",
+                                       place.path("run")};
+        words.insert(words.end(), more.begin(), more.end());
+        return place.run(words);
+    };
+    const Outcome contradiction = triaxial("P.h5", {"--set", "packing.porosity=0.36"});
+    EXPECT_EQ(contradiction.code, 2);
+    EXPECT_THAT(contradiction.err, HasSubstr("packing.porosity = 0.36: contradicts the packing"));
+    EXPECT_FALSE(place.has("run"));
+    ASSERT_EQ(triaxial("P.h5", {}).code, 0);
+    for (const char* line :
+         {"porosity = 0.48 ", "spheres = 60 ", "blocks = [1, 2, 1] ", "passing = [0, 50, 100] "})
+        EXPECT_THAT(place.read("run/config.toml"), HasSubstr(line));
+
+    ASSERT_EQ(place.run({"convert", place.path("P.h5"), place.path("P.data")}).code, 0);
+    const std::string text = place.read("P.data");
+    const std::size_t end = text.find(" ylo yhi"), begin = text.rfind(' ', end - 1);
+    std::string hash;
+    for (const std::string& lid : {text.substr(begin + 1, end - begin - 1), std::string("0.9")}) {
+        place.write("lid.data", text.substr(0, begin + 1) + lid + text.substr(end));
+        const Outcome run = triaxial("lid.data", {});
+        ASSERT_EQ(run.code, 0) << run.err;
+        EXPECT_THAT(run.out, HasSubstr("2600 kg/m3"));
+        EXPECT_EQ(run.err.find("walls start at the spheres") != std::string::npos, lid == "0.9");
+        const std::string found = place.json("run/summary.json")["state_hash"];
+        EXPECT_EQ(found, hash.empty() ? found : hash);
+        hash = found;
+    }
+}
+
 TEST(Convert, FollowsNoDetourOntoItself) {
     const Workplace place;
     place.write("a.csv", spheres);
