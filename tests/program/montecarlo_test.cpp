@@ -149,6 +149,16 @@ TEST_F(MonteCarlo, AFullDiskEndsItAndLosesNothing) {
     EXPECT_EQ(table("full"), table("whole"));
 }
 
+TEST_F(MonteCarlo, ClosedStreamsDoNotHarmTheJournal) {
+    const std::vector<std::string> one{"--set", "montecarlo.realizations=1"};
+    EXPECT_EQ(place_.run_in_shell(words("out", one), "0<&- 1>&- 2>&-"), 0);
+    const std::size_t before = rows("out");
+    EXPECT_EQ(before, 4u);
+    const Outcome again = run("out", one);
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_THAT(again.out, HasSubstr("rows computed           0"));
+}
+
 TEST_F(MonteCarlo, InterruptedItSaysHowFarItIs) {
     const Outcome stopped =
         run("out", {"--threads", "1"}, SignalAfter{SIGINT, [&] { return rows("out") >= 3; }});

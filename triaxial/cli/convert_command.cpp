@@ -89,12 +89,12 @@ void run_convert(const ConvertArguments& arguments, Session& session) {
 
 void add_convert_command(CommandLine& line) {
     auto arguments = std::make_shared<ConvertArguments>();
-    ArgumentParser command = line.add(
-        "convert",
-        fmt::format("Converts a file of spheres; the suffixes say the formats: {}.",
-                    core::sphere_file_suffixes),
-        "grainfield convert packing.h5 packing.data",
-        [arguments](Session& session) { run_convert(*arguments, session); }, OnSignal::end_at_once);
+    ArgumentParser command =
+        line.add("convert",
+                 fmt::format("Converts a file of spheres; the suffixes say the formats: {}.",
+                             core::sphere_file_suffixes),
+                 "grainfield convert packing.h5 packing.data",
+                 [arguments](Session& session) { run_convert(*arguments, session); });
     command.add("in", arguments->in, "File to read").required();
     command.add("out", arguments->out, "File to write, another than IN").required();
 }

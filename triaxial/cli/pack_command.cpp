@@ -65,6 +65,7 @@ void run_pack(const PackArguments& arguments, Session& session) {
     core::Checkpoint checkpoint(beside(".checkpoint.bin"), core::json_text(identity),
                                 arguments.checkpoints.every);
     if (found) checkpoint.resume(*found);
+    handle_signals(OnSignal::stop_safely);
     ResumableRun resumable(session.monitor, beside(".failed.h5"), checkpoint);
     const packing::Packing packed =
         resumable.run([&] { return pack(config, resumable, &checkpoint); });

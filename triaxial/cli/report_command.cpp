@@ -42,7 +42,7 @@ void add_report_command(CommandLine& line) {
         "report",
         "Makes DIR/report.html, one page with the figures of a triaxial run or of a campaign.",
         "grainfield report run-100kPa run-200kPa",
-        [arguments](Session& session) { run_report(*arguments, session); }, OnSignal::end_at_once);
+        [arguments](Session& session) { run_report(*arguments, session); });
     command.add("dir", arguments->folder, "Folder of a triaxial run or a campaign").required();
     command.add("more", arguments->companions,
                 "Folders of runs at other confining stresses, for a common failure envelope");

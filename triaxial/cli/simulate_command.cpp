@@ -59,6 +59,7 @@ void run_simulate(const SimulateArguments& arguments, Session& session) {
                         found->file.string(), arguments.scene));
     core::Checkpoint checkpoint(file, core::json_text(identity), arguments.checkpoints.every);
     if (found) checkpoint.resume(*found);
+    handle_signals(OnSignal::stop_safely);
     ResumableRun resumable(session.monitor, out / "state.h5", checkpoint);
     const SceneSummary s = resumable.run([&] {
         return run_scene(scene, arguments.scene, out, session.threads, resumable, &checkpoint);

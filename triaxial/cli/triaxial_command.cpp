@@ -162,6 +162,7 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
     const Config& config = run.config;
     check_field_data(config);
     const kernels::KernelTable& kernels = core::choose_kernels(config.solver);
+    handle_signals(OnSignal::stop_safely);
     core::create_folder(out);
     core::Checkpoint checkpoint(checkpoint_file, core::json_text(run.identity),
                                 arguments.checkpoints.every);
