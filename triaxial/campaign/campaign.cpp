@@ -177,7 +177,7 @@ std::vector<Job> left_of(std::vector<Job> plan, const std::map<RowPlace, Row>& f
 CampaignResult run_campaign(CampaignFolder& folder, const CampaignOptions& options,
                             core::Monitor& monitor) {
     std::vector<Job> todo =
-        left_of(plan_campaign(folder.cases(), folder.shard()), folder.finished(), folder);
+        left_of(plan_campaign(folder.cases(), folder.shard(), monitor), folder.finished(), folder);
     Starts starts(folder.path(), folder.packing());
     // In a thread that ends: OpenMP counts its team as long as it lives, and teams that together
     // have more threads than there are cores go to sleep at every barrier.

@@ -14,6 +14,7 @@
 #include "core/files/text_file.hpp"
 #include "core/kernel_choice.hpp"
 #include "triaxial/campaign/stopping.hpp"
+#include "triaxial/cli/interrupt.hpp"
 #include "triaxial/config/write_config.hpp"
 
 namespace grainfield::triaxial {
@@ -167,7 +168,9 @@ std::vector<FileLock> CampaignFolder::lock_shard(const fs::path& folder, const S
 
 /// Only one process at a time writes what the shards have in common.
 FileLock CampaignFolder::lock_results() const {
-    return FileLock::wait_for(path_ / "results.lock", [] {});
+    return FileLock::wait_for(path_ / "results.lock", [] {
+        if (interrupt_requested()) throw Interrupted("stopped by the user");
+    });
 }
 
 void CampaignFolder::check_identity() const {

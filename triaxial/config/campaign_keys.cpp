@@ -15,6 +15,9 @@
 namespace grainfield::triaxial {
 namespace {
 
+/// Each is a whole config.
+constexpr std::size_t most_cases = 10'000;
+
 /// Tries one value on a config of its own. Values are tried one by one: whether they fit together
 /// can only be said of a whole case.
 class Trial {
@@ -153,6 +156,14 @@ std::vector<CaseKeys> read_campaign(TomlReader& reader) {
     if (const toml::node* value = reader.take("montecarlo.case"))
         cases = read_cases(reader, *value);
     if (cases.empty()) cases.push_back({sweep.empty() ? "base" : "", {}});
+    std::size_t count = cases.size();
+    for (const SweptKey& key : sweep)
+        if ((count *= key.values.size()) > most_cases)
+            throw InputError(
+                fmt::format("montecarlo.sweep: its keys and [[montecarlo.case]], crossed, are {} "
+                            "cases or more: "
+                            "at most {} are allowed",
+                            count, most_cases));
     for (const SweptKey& key : sweep) cases = crossed(cases, key);
     std::set<std::string> names;
     for (const CaseKeys& one : cases)
