@@ -5,7 +5,9 @@
 #include <tbb/global_control.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <new>
+#include <system_error>
 
 #include "core/base/errors.hpp"
 #include "core/base/memory_limit.hpp"
@@ -34,6 +36,23 @@ void add_commands(CommandLine& line) {
     add_simulate_command(line);
     add_convert_command(line);
     add_info_command(line);
+}
+
+/// `--set a=1 b=2` would take b=2 for the name of a file.
+void require_one_setting_each(const std::vector<std::string>& words) {
+    for (std::size_t k = 1; k < words.size(); ++k) {
+        const bool joined = words[k].starts_with("--set=");
+        const std::size_t next = k + (joined ? 1 : 2);
+        if ((!joined && words[k] != "--set") || next >= words.size()) continue;
+        const std::string& word = words[next];
+        std::error_code ignored;
+        if (!word.starts_with('-') && word.find('=') != std::string::npos &&
+            word.find('=') < word.find('/') && !std::filesystem::exists(word, ignored))
+            throw UsageError(fmt::format(
+                "{}: there is no such file, and --set takes one key.path=value: give --set again "
+                "for each key",
+                word));
+    }
 }
 
 int fail(int code, std::string_view message) {
@@ -72,6 +91,7 @@ void CommandLine::run(int argc, const char* const* argv) {
         for (const auto& [name, command] : commands_) names += (names.empty() ? "" : ", ") + name;
         throw InputError(fmt::format("'{}' is no subcommand; allowed: {}", first, names));
     }
+    require_one_setting_each({argv, argv + argc});
     if (!program_.parse(argc, argv)) return;  // --help, --version
     if (program_.chosen().empty()) {
         write_log(program_.help() + "\n");

@@ -71,6 +71,7 @@ void run_convert(const ConvertArguments& arguments, Session& session) {
     if (same_file(arguments.in, arguments.out))
         throw InputError(
             fmt::format("{}: IN and OUT are the same file; they must differ", arguments.out));
+    core::require_sphere_suffix(arguments.out);
     const core::SphereFile file = core::read_spheres(arguments.in);
     core::check_spheres(file.spheres, arguments.in, file.lines);
     core::write_spheres(arguments.out, file);

@@ -135,6 +135,7 @@ void verify_field(const randomfield::FieldGenerator& generator, const FieldArgum
 void run_field(const FieldArguments& arguments, Session& session) {
     const Config config = load_config(arguments.config, session.settings);
     const std::uint64_t count = arguments.count();
+    if (arguments.writes_fields()) randomfield::require_field_suffix(arguments.out);
     const auto start = std::chrono::steady_clock::now();
     session.monitor.begin("drawing the field");
     const randomfield::FieldGenerator generator({config.packing.blocks, config.packing.block},
