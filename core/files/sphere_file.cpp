@@ -49,6 +49,10 @@ void require_whole(const ParticleStore& s) {
 
 }  // namespace
 
+void require_sphere_suffix(const std::filesystem::path& path) {
+    (void)format_of(path);
+}
+
 SphereFile read_spheres(const std::filesystem::path& path) {
     const Format& format = format_of(path);
     return format.parse(read_whole_file(path), path);
