@@ -179,7 +179,7 @@ Block pack_block(const PackingOptions& options, const Grading& grading, const Ma
                  core::Monitor& monitor) {
     Block block;
     block.grading = draw_diameters(grading, (1 - options.porosity) * options.block.prod(),
-                                   options.seed, options.spheres);
+                                   options.seed, options.spheres, &monitor);
     const std::size_t n = block.grading.diameter.size();
     core::Scene scene;
     scene.spheres.resize(n);
@@ -192,7 +192,7 @@ Block pack_block(const PackingOptions& options, const Grading& grading, const Ma
     scene.stiffness_ratio = material.stiffness_ratio;
     scene.damping = material.damping;
     const double height = place_at_random(scene.spheres, options.block.x(), options.block.z(),
-                                          2.5 * options.block.y(), options.seed);
+                                          2.5 * options.block.y(), options.seed, &monitor);
     core::Wall wall;
     wall.friction_angle = material.wall_friction_angle;
     wall.normal_stiffness = mirror_stiffness_factor * material.normal_stiffness;

@@ -13,6 +13,7 @@ namespace grainfield::packing {
 namespace {
 
 constexpr int attempts_a_sphere = 2000;
+constexpr std::uint64_t calls_a_look = 64;  // at the monitor: random numbers drawn between two
 
 bool fits(const core::ParticleStore& s, const std::vector<std::size_t>& placed, const Vec3& x,
           double r) {
@@ -25,7 +26,7 @@ bool fits(const core::ParticleStore& s, const std::vector<std::size_t>& placed, 
 }  // namespace
 
 double place_at_random(core::ParticleStore& spheres, double width, double depth, double height,
-                       std::uint64_t seed) {
+                       std::uint64_t seed, core::Monitor* monitor) {
     const core::RandomStream stream(seed, core::Stream::packing_position);
     std::vector<std::size_t> order(spheres.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -44,6 +45,8 @@ double place_at_random(core::ParticleStore& spheres, double width, double depth,
         const double r = spheres.radius[i];
         height = std::max(height, 2 * r);
         for (int attempt = 1;; ++attempt) {
+            if (monitor != nullptr && counter % calls_a_look == 0 && monitor->stop_requested())
+                throw Interrupted("stopped by the user");
             const auto [u, v] = stream.uniform_pair(0, counter++);
             const double w = stream.uniform(0, counter++);
             const Vec3 x(r + u * (width - 2 * r), r + v * (height - 2 * r),

@@ -4,14 +4,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/errors.hpp"
 #include "core/base/random.hpp"
 
 namespace grainfield::packing {
 namespace {
 
 constexpr std::uint64_t most_draws = 64;
-constexpr std::int32_t neighbourhood = 16;  // of the bisected count that is searched [-]
-constexpr double close_enough = 3.0;        // deviation of the curve at any sieve [% of mass]
+constexpr std::int32_t neighbourhood = 16;     // of the bisected count that is searched [-]
+constexpr std::int32_t grains_a_look = 65536;  // at the monitor, between two
+constexpr double close_enough = 3.0;           // deviation of the curve at any sieve [% of mass]
 
 double volume(const std::vector<double>& diameters) {
     double cubes = 0;
@@ -56,8 +58,13 @@ double NumberDistribution::mean_cube(double u0, double u1) const {
     return (mass_share(u1) - mass_share(u0)) / ((u1 - u0) * inverse_mean_cube_);
 }
 
+double expected_spheres(const Grading& grading, double target_volume) {
+    const double mean_cube = NumberDistribution(grading).mean_cube(0.0, 1.0);
+    return target_volume / (std::numbers::pi / 6 * mean_cube);
+}
+
 GradingDraw draw_diameters(const Grading& grading, double target_volume, std::uint64_t seed,
-                           std::optional<std::int32_t> count) {
+                           std::optional<std::int32_t> count, core::Monitor* monitor) {
     const NumberDistribution distribution(grading);
     const core::RandomStream stream(seed, core::Stream::packing_grading);
     // Strata are numbered from the largest grains down, so that the largest ones, which decide the
@@ -65,6 +72,8 @@ GradingDraw draw_diameters(const Grading& grading, double target_volume, std::ui
     const auto draw = [&](std::uint64_t attempt, std::int32_t n) {
         std::vector<double> diameters;
         for (std::int32_t k = 0; k < n; ++k) {
+            if (monitor != nullptr && k % grains_a_look == 0 && monitor->stop_requested())
+                throw Interrupted("stopped by the user");
             const double u = 1 - (k + stream.uniform(attempt, static_cast<std::uint64_t>(k))) / n;
             diameters.push_back(distribution.quantile(u));
         }
@@ -80,8 +89,7 @@ GradingDraw draw_diameters(const Grading& grading, double target_volume, std::ui
     };
     // The volume of n stratified grains grows with n but for small jumps of the largest: bisect,
     // then look around.
-    const double expected =
-        target_volume / (std::numbers::pi / 6 * distribution.mean_cube(0.0, 1.0));
+    const double expected = expected_spheres(grading, target_volume);
     const auto count_for_volume = [&](std::uint64_t attempt) {
         std::int32_t low = 1, high = static_cast<std::int32_t>(std::ceil(2.5 * expected)) + 4;
         while (high - low > 1) {

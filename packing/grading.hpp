@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/monitor.hpp"
 #include "packing/packing_options.hpp"
 
 namespace grainfield::packing {
@@ -40,9 +41,12 @@ struct GradingDraw {
 
 /// Spheres that together have the target volume [m3]. Stratified: one grain from each of n equal
 /// shares of the number distribution. n follows from the volume, or is `count`; a common factor
-/// then brings the volume to the target exactly.
+/// then brings the volume to the target exactly. Throws Interrupted where the monitor asks to stop.
 GradingDraw draw_diameters(const Grading& grading, double target_volume, std::uint64_t seed,
-                           std::optional<std::int32_t> count);
+                           std::optional<std::int32_t> count, core::Monitor* monitor = nullptr);
+
+/// How many spheres have the target volume [m3], but for the scatter of a draw.
+double expected_spheres(const Grading& grading, double target_volume);
 
 /// Share by mass of the spheres at or below each diameter [%], like the sieve curve.
 std::vector<double> achieved_passing(const std::vector<double>& diameters,

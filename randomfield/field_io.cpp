@@ -22,6 +22,13 @@ void report_progress(core::Monitor& monitor, std::uint64_t realization, std::uin
     monitor.progress(static_cast<double>(realization) / static_cast<double>(count), -1, "");
 }
 
+void require_field_suffix(const std::filesystem::path& path) {
+    const std::string suffix = path.extension().string();
+    if (suffix != ".csv" && suffix != ".h5")
+        throw InputError(fmt::format("{}: fields are written as .csv or .h5, not \"{}\"",
+                                     path.string(), suffix));
+}
+
 void write_fields(const std::filesystem::path& path, const FieldGenerator& generator,
                   std::uint64_t count, const DeterministicValues& deterministic) {
     core::Monitor nobody;
@@ -31,13 +38,9 @@ void write_fields(const std::filesystem::path& path, const FieldGenerator& gener
 void write_fields(const std::filesystem::path& path, const FieldGenerator& generator,
                   std::uint64_t count, const DeterministicValues& deterministic,
                   core::Monitor& monitor) {
-    const std::string suffix = path.extension().string();
-    if (suffix != ".csv" && suffix != ".h5") {
-        throw InputError(fmt::format("{}: fields are written as .csv or .h5, not \"{}\"",
-                                     path.string(), suffix));
-    }
+    require_field_suffix(path);
     if (count == 0) throw InputError("realizations = 0: must be at least 1");
-    if (suffix == ".h5") {
+    if (path.extension() == ".h5") {
         core::write_file_atomically(path, fields_as_h5(generator, count, deterministic, monitor));
         return;
     }

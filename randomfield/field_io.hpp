@@ -15,6 +15,9 @@ struct DeterministicValues {
     double normal_stiffness = 9e8;  ///< [Pa]
 };
 
+/// InputError unless fields are written in the format of the file's suffix.
+void require_field_suffix(const std::filesystem::path& path);
+
 /// Writes the realizations 0 ... count - 1 by the file's suffix:
 /// .csv  header realization,i,j,k,G,friction_angle,normal_stiffness, a row a cell, x fastest;
 ///       numbers are the shortest that read back as the same double. One field in memory.

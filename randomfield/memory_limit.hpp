@@ -3,13 +3,12 @@
 
 #include <cstdint>
 
+#include "core/base/memory_limit.hpp"
 #include "randomfield/grid.hpp"
 
 namespace grainfield::randomfield {
 
-/// What this process may use: the machine's memory, or less where a limit is set (ulimit -v, the
-/// control group of a container) [B].
-double memory_of_process();
+using core::memory_of_process;
 
 /// InputError that names the grid, what `work` ("field.method = \"las\"", ...) needs, what is
 /// there and what to lower, if `bytes` [B] are more than memory_of_process().

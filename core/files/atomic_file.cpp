@@ -2,11 +2,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <string>
 #include <utility>
 
@@ -22,6 +24,10 @@ namespace fs = std::filesystem;
 [[noreturn]] void fail(const fs::path& target, int error) {
     throw FileError(fmt::format("{}: cannot be written: {}", target.string(), error_text(error)));
 }
+
+constexpr const char* temporary_begin = ".grainfield-";
+constexpr const char* temporary_end = ".tmp";
+constexpr auto abandoned_after = std::chrono::minutes(1);  // a writer may not hold it yet
 
 fs::path folder_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
@@ -50,10 +56,13 @@ AtomicFile::AtomicFile(const fs::path& target) : target_(real_target(target)) {
     static std::atomic<unsigned> counter{0};
     while (true) {
         // Short, so that the longest allowed target name still works.
-        temporary_ = folder_of(target_) /
-                     fmt::format(".grainfield-{}-{}.tmp", ::getpid(), counter.fetch_add(1));
-        const Descriptor file(::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY, 0666));
-        if (file.fd >= 0) return;
+        temporary_ = folder_of(target_) / fmt::format("{}{}-{}{}", temporary_begin, ::getpid(),
+                                                      counter.fetch_add(1), temporary_end);
+        held_.fd = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+        if (held_.fd >= 0) {
+            (void)::flock(held_.fd, LOCK_SH | LOCK_NB);  // not everywhere; then age must do
+            return;
+        }
         if (errno != EEXIST) fail(target, errno);  // EEXIST: left by a killed run of our own id
     }
 }
@@ -88,6 +97,20 @@ void AtomicFile::rename_and_flush(const fs::path* before) {
     temporary_.clear();
     // The new name must outlive a power cut, too. Not every file system knows how (EINVAL).
     if (::fsync(folder.fd) != 0 && errno != EINVAL && errno != ENOTSUP) fail(target_, errno);
+}
+
+void remove_abandoned_files(const fs::path& folder) {
+    std::error_code error;
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+        const std::string name = at->path().filename().string();
+        if (!name.starts_with(temporary_begin) || !name.ends_with(temporary_end)) continue;
+        std::error_code ignored;
+        const auto changed = fs::last_write_time(at->path(), ignored);
+        if (ignored || fs::file_time_type::clock::now() - changed < abandoned_after) continue;
+        const Descriptor file(::open(at->path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+        if (file.fd >= 0 && ::flock(file.fd, LOCK_EX | LOCK_NB) == 0)
+            fs::remove(at->path(), ignored);
+    }
 }
 
 void write_file_atomically(const fs::path& path, std::string_view content) {

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "core/files/descriptor.hpp"
+
 namespace grainfield::core {
 
 /// A temporary file beside `target`, for libraries that write by path. Gone again unless
@@ -40,8 +42,13 @@ class AtomicFile {
 
     std::filesystem::path target_;
     std::filesystem::path temporary_;  ///< empty once committed
+    Descriptor held_{-1};              ///< locked: whoever cleans up leaves the temporary alone
     bool left_ = false;                ///< not to be removed
 };
+
+/// Removes the temporaries that killed processes left in a folder: those that are a minute old and
+/// that nobody holds. What cannot be removed stays.
+void remove_abandoned_files(const std::filesystem::path& folder);
 
 /// Replaces (or makes) the file by these bytes. On any failure FileError names file and reason,
 /// and what was there before is still there.

@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <memory>
+#include <string>
 
 namespace grainfield::core {
 
@@ -33,5 +35,11 @@ class Checksum {
     std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
     std::uint64_t length_ = 0;
 };
+
+/// 32 digits.
+std::string hex_text(const Checksum::Digest& digest);
+
+/// The checksum of a file's content, as such a text. Throws FileError.
+std::string checksum_of_file(const std::filesystem::path& file);
 
 }  // namespace grainfield::core

@@ -9,6 +9,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/files/hdf5_reader.hpp"
+#include "core/files/json_text.hpp"
 #include "core/files/sphere_checks.hpp"
 #include "core/files/sphere_file.hpp"
 #include "core/files/sphere_formats.hpp"
@@ -113,6 +114,9 @@ std::string describe_csv(std::string_view text, const fs::path& path) {
 }
 
 std::string describe_json(std::string_view text, const fs::path& path) {
+    if (nested_too_deep(text))
+        throw FileError(fmt::format("{}: not valid here: JSON nested deeper than {} levels",
+                                    path.string(), most_json_levels));
     try {
         const nlohmann::json json = nlohmann::json::parse(text);
         return fmt::format("JSON: {} keys\n", json.size()) + json_lines(json);
@@ -141,6 +145,8 @@ std::string describe_toml(std::string_view text, const fs::path&) {
 std::string describe_checkpoint(std::string_view, const fs::path& path) {
     const FoundCheckpoint found = open_checkpoint(path);
     std::string info = "checkpoint, whole; --resume goes on from it\n";
+    if (nested_too_deep(found.identity))
+        throw FileError(fmt::format("{}: is damaged: nested too deep", path.string()));
     const auto identity = nlohmann::json::parse(found.identity);
     for (const auto& [key, value] : identity.items())
         if (key != "config") info += fmt::format("  {}: {}\n", key, value.dump());

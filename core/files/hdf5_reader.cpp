@@ -10,7 +10,7 @@
 namespace grainfield::core {
 
 Hdf5Reader::Hdf5Reader(std::string_view image, std::filesystem::path path)
-    : path_(std::move(path)) {
+    : path_(std::move(path)), image_size_(image.size()) {
     if (!image.starts_with("\x89HDF\r\n\x1a\n")) fail("not an HDF5 file");
     const Hdf5Handle access = hdf5_in_memory_access();
     // HDF5 copies the image before it looks at it, const is only missing in the signature.
@@ -26,7 +26,12 @@ void Hdf5Reader::fail(const std::string& message) const {
 bool Hdf5Reader::has(const std::string& object) const {
     // H5Lexists wants every group on the way to exist.
     for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
-        if (H5Lexists(file_, object.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+        const std::string part = object.substr(0, end);
+        if (H5Lexists(file_, part.c_str(), H5P_DEFAULT) <= 0) return false;
+        H5L_info_t info;
+        if (H5Lget_info(file_, part.c_str(), &info, H5P_DEFAULT) < 0 ||
+            (info.type != H5L_TYPE_HARD && info.type != H5L_TYPE_SOFT))
+            fail(fmt::format("{} is a link to another file", part));
         if (end == std::string::npos) return true;
     }
 }
@@ -48,7 +53,36 @@ Hdf5Handle Hdf5Reader::open(const std::string& dataset) const {
     if (!has(dataset)) fail(fmt::format("{} is missing", dataset));
     Hdf5Handle opened(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
     if (!opened) fail(fmt::format("{} is damaged: {}", dataset, hdf5_error()));
+    require_here(opened, dataset);
     return opened;
+}
+
+void Hdf5Reader::require_here(hid_t dataset, const std::string& name) const {
+    const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+    const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
+    const H5D_layout_t layout = H5Pget_layout(creation);
+    if (layout == H5D_VIRTUAL || H5Pget_external_count(creation) != 0)
+        fail(fmt::format("{} keeps its values in other files", name));
+    H5O_info_t here, root;
+    if (H5Oget_info2(dataset, &here, H5O_INFO_BASIC) < 0 ||
+        H5Oget_info2(file_, &root, H5O_INFO_BASIC) < 0 || here.fileno != root.fileno)
+        fail(fmt::format("{} is in another file", name));
+    if (layout != H5D_CHUNKED) return;
+    // A chunk is unpacked as a whole, however little of it is asked for.
+    std::vector<hsize_t> chunk(H5S_MAX_RANK);
+    const int rank = H5Pget_chunk(creation, H5S_MAX_RANK, chunk.data());
+    auto bytes = static_cast<double>(H5Tget_size(type));
+    for (int d = 0; d < rank; ++d) bytes *= static_cast<double>(chunk[static_cast<std::size_t>(d)]);
+    require_room(bytes, name);
+}
+
+void Hdf5Reader::require_room(double bytes, const std::string& name) const {
+    // Positions hardly pack: what is much larger than all of the file is no table of spheres.
+    constexpr double small = 64e6, most_packing = 20;
+    const double image = static_cast<double>(image_size_);
+    if (bytes > small && bytes > most_packing * image)
+        fail(fmt::format("{} wants {:.3g} MB of memory out of a file of {:.3g} MB", name,
+                         1e-6 * bytes, 1e-6 * image));
 }
 
 std::vector<std::size_t> Hdf5Reader::shape(const std::string& dataset) const {
@@ -75,6 +109,7 @@ std::size_t Hdf5Reader::readable_size(const std::string& dataset, Hdf5Type type)
         if (n != 0 && count > most / n) fail(fmt::format("{} is cut short", dataset));
         count *= n;
     }
+    require_room(static_cast<double>(count) * static_cast<double>(H5Tget_size(wanted)), dataset);
     return count;
 }
 
@@ -100,6 +135,8 @@ std::string Hdf5Reader::text_attribute(const std::string& object, const std::str
     if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
         H5Sget_simple_extent_npoints(space) != 1)
         fail(fmt::format("attribute {} of {} is no text of fixed length", name, object));
+    if (H5Tget_size(type) > image_size_)
+        fail(fmt::format("attribute {} of {} is damaged: longer than the file", name, object));
     std::string value(H5Tget_size(type), '\0');
     if (H5Aread(opened, type, value.data()) < 0)
         fail(fmt::format("attribute {} of {} is damaged: {}", name, object, hdf5_error()));

@@ -44,11 +44,15 @@ class Hdf5Reader {
   private:
     Hdf5Handle open(const std::string& dataset) const;
     Hdf5Handle open_attribute(const std::string& object, const std::string& name) const;
+    /// Fails where a dataset's values stand in other files, or are more than this file can hold.
+    void require_here(hid_t dataset, const std::string& name) const;
+    void require_room(double bytes, const std::string& name) const;
     std::size_t readable_size(const std::string& dataset, Hdf5Type type) const;
     void read_into(const std::string& dataset, Hdf5Type type, void* values) const;
 
     Hdf5Session session_;
     std::filesystem::path path_;
+    std::size_t image_size_;  // [B]
     Hdf5Handle file_;
 };
 

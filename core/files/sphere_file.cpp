@@ -51,6 +51,10 @@ void require_whole(const ParticleStore& s) {
 
 }  // namespace
 
+void require_sphere_suffix(const std::filesystem::path& path) {
+    (void)format_of(path);
+}
+
 SphereFile read_spheres(const std::filesystem::path& path) {
     (void)format_of(path);  // before a large file is read
     return parse_spheres(read_whole_file(path), path);

@@ -49,6 +49,9 @@ struct SphereFile {
 inline constexpr const char* sphere_file_suffixes =
     ".h5, .csv, .data (LAMMPS), .txt (YADE), .dump and .lammpstrj (LAMMPS, only read)";
 
+/// InputError unless the file's suffix is one of these.
+void require_sphere_suffix(const std::filesystem::path& path);
+
 /// Reads by suffix. InputError: unknown suffix, or a text with wrong content (file, line, column,
 /// value, what is allowed). FileError: cannot be read, or an .h5 that is damaged or not ours.
 SphereFile read_spheres(const std::filesystem::path& path);

@@ -144,9 +144,9 @@ void read_ours(const Hdf5Reader& reader, SphereFile& file) {
             fmt::format("format version {}; this program reads {}", version, format_version));
     file.producer = reader.text_attribute(ours, "producer");
     file.kind = reader.text_attribute(ours, "kind");
-    const auto attributes =
-        nlohmann::json::parse(reader.text_attribute(ours, "attributes"), nullptr,
-                              /*allow_exceptions=*/false);
+    const std::string text = reader.text_attribute(ours, "attributes");
+    if (nested_too_deep(text)) reader.fail("attribute attributes of /grainfield: nested too deep");
+    const auto attributes = nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false);
     if (attributes.is_discarded()) reader.fail("attribute attributes of /grainfield: not JSON");
     if (!attributes.empty()) file.attributes = json_text(attributes);
     for (const Flag& flag : flags)

@@ -12,11 +12,15 @@
 #include <system_error>
 
 #include "core/base/errors.hpp"
+#include "core/base/memory_limit.hpp"
 
 namespace grainfield::core {
 namespace {
 
 constexpr std::string_view white_space = " \t\r\n\f\v";
+
+/// Pipes and devices may never end [B].
+constexpr double most_of_a_stream = 256e6;
 
 /// from_chars knows no plus sign, people do.
 std::string_view without_plus(std::string_view text) {
@@ -54,8 +58,18 @@ std::string read_whole_file(const std::filesystem::path& path) {
     constexpr std::size_t block = std::size_t{1} << 20;
     struct stat info {};
     std::string content;
-    if (::fstat(fd, &info) == 0 && info.st_size > 0)
-        content.reserve(static_cast<std::size_t>(info.st_size) + block);
+    const bool known = ::fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
+    // What is read once is there twice while it is parsed.
+    const double most = known ? 0.5 * memory_of_process() : most_of_a_stream;
+    const auto too_large = [&] {
+        ::close(fd);
+        throw FileError(fmt::format(
+            "{}: cannot be read: it is larger than {:.3g} MB, the most that "
+            "{} allows",
+            path.string(), 1e-6 * most, known ? "the memory" : "a file without a size"));
+    };
+    if (known && static_cast<double>(info.st_size) > most) too_large();
+    if (known && info.st_size > 0) content.reserve(static_cast<std::size_t>(info.st_size) + block);
     // Pipes have no size, and a file may grow: read until the end says so.
     std::size_t filled = 0;
     ssize_t n = 0;
@@ -67,6 +81,7 @@ std::string read_whole_file(const std::filesystem::path& path) {
             continue;
         }
         if (n > 0) filled += static_cast<std::size_t>(n);
+        if (static_cast<double>(filled) > most) too_large();
     } while (n > 0);
     const int error = n < 0 ? errno : 0;
     ::close(fd);

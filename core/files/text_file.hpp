@@ -12,7 +12,8 @@ namespace grainfield::core {
 /// What the system says about an errno value.
 std::string error_text(int error);
 
-/// All bytes of a file. FileError names file and reason.
+/// All bytes of a file. FileError names file and reason: also where it is larger than half of the
+/// memory, or is a pipe or a device and gives more than 256 MB.
 std::string read_whole_file(const std::filesystem::path& path);
 
 /// Goes through a text line by line and counts. Lines end with LF or CRLF; a UTF-8 byte order

@@ -23,10 +23,37 @@ FoundCheckpoint open_checkpoint(const fs::path& file) {
     return found;
 }
 
+namespace {
+
+fs::path with_word(const fs::path& file, const char* word) {
+    fs::path name = file;
+    name.replace_extension();
+    return (name += word) += file.extension();
+}
+
+fs::path stale_file(const fs::path& file) {
+    return with_word(file, ".stale");
+}
+
+}  // namespace
+
 fs::path file_before(const fs::path& file) {
-    fs::path before = file;
-    before.replace_extension();
-    return (before += ".before") += file.extension();
+    return with_word(file, ".before");
+}
+
+std::optional<fs::path> put_checkpoint_away(const fs::path& file) {
+    std::optional<fs::path> stale;
+    // The older one first: the last one takes its place.
+    for (const fs::path& found : {file_before(file), file}) {
+        if (!fs::exists(found)) continue;
+        stale = stale_file(file);
+        std::error_code error;
+        fs::rename(found, *stale, error);
+        if (error)
+            throw FileError(fmt::format("{}: cannot be put away as {}: {}", found.string(),
+                                        stale->string(), error.message()));
+    }
+    return stale;
 }
 
 std::optional<FoundCheckpoint> find_checkpoint(const fs::path& file) {
@@ -82,7 +109,8 @@ void Checkpoint::save() {
 void Checkpoint::remove() {
     std::error_code ignored;  // what cannot be removed is in nobody's way
     // The last one last: a run that is killed here can still be resumed.
-    for (const fs::path& file : {unfinished_file(file_), file_before(file_), file_})
+    for (const fs::path& file :
+         {unfinished_file(file_), stale_file(file_), file_before(file_), file_})
         fs::remove(file, ignored);
 }
 

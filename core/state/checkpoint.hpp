@@ -98,6 +98,11 @@ class Checkpoint {
     std::int64_t saves_ = 0;
 };
 
+/// Gives the checkpoint that another run left as `file` another name, x.bin -> x.stale.bin, so that
+/// none but its own is taken for one of the run that begins. Returns that name; nothing where there
+/// is none. Throws FileError.
+std::optional<std::filesystem::path> put_checkpoint_away(const std::filesystem::path& file);
+
 /// Where the checkpoint before the last is kept: x.bin -> x.before.bin.
 std::filesystem::path file_before(const std::filesystem::path& file);
 

@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace grainfield::kernels::HWY_NAMESPACE {
 
 template <class T, bool Friction, bool PerSphere>
-void set_contact_kernels(VectorKernels<T>& table) {
+constexpr void set_contact_kernels(VectorKernels<T>& table) {
     // Without friction there are no shear forces to leave alone.
     constexpr bool replay = Friction;
     const auto set = [](auto& kernels, auto plain, auto with_sums, auto replayed) {
@@ -32,7 +32,7 @@ void set_contact_kernels(VectorKernels<T>& table) {
 }
 
 template <class T, bool Gravity, bool Damping>
-void set_motion_kernels(VectorKernels<T>& table) {
+constexpr void set_motion_kernels(VectorKernels<T>& table) {
     auto& kernels = table.spheres.moving[Gravity][Damping];
     kernels[false][false] = move_records<T, Gravity, Damping, false, false>;
     kernels[false][true] = move_records<T, Gravity, Damping, false, true>;
@@ -40,9 +40,10 @@ void set_motion_kernels(VectorKernels<T>& table) {
     kernels[true][true] = move_records<T, Gravity, Damping, true, true>;
 }
 
+/// Constant: code that fills it would be of this target, and run on CPUs that cannot.
 template <class T>
 const VectorKernels<T>& vector_kernels() {
-    static const VectorKernels<T> table = [] {
+    static constexpr VectorKernels<T> table = [] {
         VectorKernels<T> t{};
         set_contact_kernels<T, false, false>(t);
         set_contact_kernels<T, false, true>(t);

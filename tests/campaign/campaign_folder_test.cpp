@@ -114,6 +114,22 @@ TEST_F(Folder, AnotherCampaignIsRefusedByName) {
     }
 }
 
+TEST_F(Folder, WhatAKillLeftUnwrittenOfItsCasesComesBack) {
+    const auto all = cases();
+    { open(all); }
+    const auto file = folder_ / "out" / "cases" / "base.toml";
+    const std::string before = core::read_whole_file(file);
+    std::filesystem::remove_all(folder_ / "out" / "cases");
+    { open(all); }
+    EXPECT_EQ(core::read_whole_file(file), before);
+}
+
+TEST_F(Folder, CasesOfDifferentCallsDoNotShareFiles) {
+    { open(cases("[[montecarlo.case]]\nname = 'a b'\n")); }
+    EXPECT_THAT(message_of<InputError>([&] { open(cases("[[montecarlo.case]]\nname = 'a_b'\n")); }),
+                HasSubstr("\"a b\" and \"a_b\" would share their files"));
+}
+
 TEST_F(Folder, MergingTakesRowsOverOnce) {
     const auto all = cases();
     {

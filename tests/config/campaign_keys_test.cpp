@@ -37,6 +37,31 @@ name = "base"
     expect_equal(load_config(file), expected);
 }
 
+TEST_F(Campaign, NamesThatFilesAndColumnsCannotHaveAreRefused) {
+    const auto refusal = [&](const std::string& text) {
+        const auto file = write("a.toml", text);
+        return message_of<InputError>([&] { load_campaign(file); });
+    };
+    for (const char* value : {"a,b", "a/b.csv", "../a", "a\\nb", "a\\\"b", "<b>"})
+        EXPECT_THAT(
+            refusal("[montecarlo.sweep]\n'field.data' = [\"" + std::string(value) + "\"]\n"),
+            HasSubstr("montecarlo.sweep: a case would be called \"data="))
+            << value;
+    EXPECT_THAT(refusal("[[montecarlo.case]]\nname = ''\n"), HasSubstr("a text is expected"));
+    EXPECT_THAT(refusal("[[montecarlo.case]]\nname = '" + std::string(201, 'a') + "'\n"),
+                HasSubstr("a name of at most 200"));
+    const std::string two =
+        "[[montecarlo.case]]\nname = 'a b'\n[[montecarlo.case]]\nname = 'a_b'\n";
+    EXPECT_THAT(refusal(two), HasSubstr("\"a_b\" would share its files with another one"));
+    std::string many = "[montecarlo.sweep]\n";
+    for (const char* key : {"particle.density", "particle.friction_angle", "packing.porosity"}) {
+        many += "'" + std::string(key) + "' = [";
+        for (int k = 1; k <= 40; ++k) many += (k > 1 ? ", 0.3" : "0.3") + std::to_string(k);
+        many += "]\n";
+    }
+    EXPECT_THAT(refusal(many), HasSubstr("64000 cases or more: at most 10000 are allowed"));
+}
+
 TEST_F(Campaign, MistakesNameLineAndKey) {
     struct Mistake {
         const char* text;  ///< under [montecarlo], from line 2

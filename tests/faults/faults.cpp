@@ -63,7 +63,9 @@ bool applies(const std::string& kind, const Call& call) {
     const bool writes = call.name.find("write") != std::string::npos;
     if (kind.starts_with("half") || kind == "full") return writes;
     if (kind == "enospc") return writes || call.name == "fsync";
-    if (kind == "kill") return call.name != "close" && call.name != "fsync";
+    if (kind == "kill")
+        return call.name != "close" && call.name != "fsync" &&
+               !call.is("remove", "checkpoint.lock");
     return true;
 }
 

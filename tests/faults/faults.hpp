@@ -34,7 +34,7 @@ struct Call {
 
 /// True if a fault of this kind at this call is one of its own: half of a write needs a write, a
 /// disk is full where there is something to store, a kill before a call that leaves the files as
-/// they are comes to the same as one before the next.
+/// they are comes to the same as one before the next. The lock goes last, when the run is over.
 bool applies(const std::string& kind, const Call& call);
 
 std::string in_words(const Fault& fault, const Call& call);

@@ -85,8 +85,9 @@ class Towers {
             for (const char* name : {"trajectory.csv.part", "energy.csv.part", "checkpoint.bin",
                                      "checkpoint.before.bin"})
                 allowed.emplace_back(name);
-            if (place.has(before + "/checkpoint.bin.new"))
-                allowed.emplace_back("checkpoint.bin.new");
+            // What the killed run left, where this one could not even begin.
+            for (const char* name : {"checkpoint.bin.new", "checkpoint.lock"})
+                if (place.has(before + "/" + name)) allowed.emplace_back(name);
             if (place.has("run")) {
                 EXPECT_THAT(others_in(place, "run", allowed), IsEmpty());
             }
@@ -192,7 +193,8 @@ TEST(SimulateFaults, UnfinishedCheckpointsDoNotHeapUp) {
     for (int k = 0; k < 4; ++k) {
         const FaultyRun run = run_with_fault(t.place, "run", t.command, {at, "half_kill"});
         EXPECT_EQ(run.outcome.code, 128 + SIGKILL);
-        EXPECT_THAT(others_in(t.place, "run", {"trajectory.csv.part", "energy.csv.part"}),
+        EXPECT_THAT(others_in(t.place, "run",
+                              {"trajectory.csv.part", "energy.csv.part", "checkpoint.lock"}),
                     testing::ElementsAre("checkpoint.bin.new"));
     }
     // One that needs no checkpoint of its own leaves none of the others' either.

@@ -36,12 +36,13 @@ inline std::string chosen_kernels() {
     return chosen == nullptr ? "" : chosen;
 }
 
-/// Instruction sets to test: all, or the widest that runs here.
+/// Instruction sets to test: all, or the widest of this build that runs here.
 inline std::vector<InstructionSet> tested_sets() {
-    if (chosen_kernels() == "all") return {std::begin(instruction_sets), std::end(instruction_sets)};
+    if (chosen_kernels() == "all")
+        return {std::begin(instruction_sets), std::end(instruction_sets)};
     InstructionSet widest = instruction_sets[0];
     for (const InstructionSet isa : instruction_sets)
-        if (runs_here(isa)) widest = isa;
+        if (runs_here(isa) && mixed_table(isa) != nullptr) widest = isa;
     return {widest};
 }
 

@@ -79,10 +79,11 @@ def timed(program, tests, environment):
     return times, failed
 
 
-def listed(program, filter):
+def listed(program, filter, environment):
     """Names of all tests of a program."""
     lines = subprocess.run([program, f"--gtest_filter={filter}", "--gtest_list_tests"], check=True,
-                           capture_output=True, text=True).stdout.splitlines()
+                           env=os.environ | environment, capture_output=True,
+                           text=True).stdout.splitlines()
     names, suite = [], ""
     for line in lines:
         word = line.split("#")[0].strip()

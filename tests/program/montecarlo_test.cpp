@@ -149,6 +149,16 @@ TEST_F(MonteCarlo, AFullDiskEndsItAndLosesNothing) {
     EXPECT_EQ(table("full"), table("whole"));
 }
 
+TEST_F(MonteCarlo, ClosedStreamsDoNotHarmTheJournal) {
+    const std::vector<std::string> one{"--set", "montecarlo.realizations=1"};
+    EXPECT_EQ(place_.run_in_shell(words("out", one), "0<&- 1>&- 2>&-"), 0);
+    const std::size_t before = rows("out");
+    EXPECT_EQ(before, 4u);
+    const Outcome again = run("out", one);
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_THAT(again.out, HasSubstr("rows computed           0"));
+}
+
 TEST_F(MonteCarlo, InterruptedItSaysHowFarItIs) {
     const Outcome stopped =
         run("out", {"--threads", "1"}, SignalAfter{SIGINT, [&] { return rows("out") >= 3; }});
@@ -250,6 +260,45 @@ TEST_F(MonteCarlo, ARunThatFailsIsARowAndTheOthersGoOn) {
     EXPECT_THAT(results, HasSubstr("cov=0.4 step=0.001,1,1,failed,,,,,,"));
     EXPECT_THAT(place_.read("out/failures.csv"), HasSubstr("cov=0.4 step=0.001,1,\""));
     EXPECT_THAT(outcome.out, HasSubstr("0 of 2 done, 2 failed"));
+}
+
+TEST_F(MonteCarlo, DamagedPackingsAndStartsAreMadeAgain) {
+    place_.write("c.toml",
+                 "field.variable = 'stiffness'\n[triaxial]\nmax_axial_strain = 0.001\n"
+                 "strain_rate = 1\n");
+    const auto run = [&](const std::string& out, const std::string& realizations) {
+        std::vector<std::string> all{"montecarlo", place_.path("c.toml"), "--out",
+                                     place_.path(out)};
+        all.insert(all.end(), small_packing.begin(), small_packing.end());
+        all.insert(all.end(), {"--set", "montecarlo.realizations=" + realizations});
+        return place_.run(all);
+    };
+    ASSERT_EQ(run("whole", "2").code, 0);
+    ASSERT_EQ(run("out", "1").code, 0);
+    for (const char* folder : {"packings", "starts"})
+        for (const auto& entry :
+             std::filesystem::directory_iterator(place_.path(std::string("out/") + folder)))
+            if (entry.path().extension() == ".h5")
+                std::filesystem::resize_file(entry.path(),
+                                             std::filesystem::file_size(entry.path()) / 2);
+    const Outcome again = run("out", "2");
+    ASSERT_EQ(again.code, 0) << again.err;
+    const auto first = again.err.find("it is made again");
+    EXPECT_NE(again.err.find("it is made again", first + 1), std::string::npos) << again.err;
+    EXPECT_EQ(table("out"), table("whole"));
+}
+
+TEST_F(MonteCarlo, ThreadsThatCannotBeCreatedEndIt) {
+    const std::string log = place_.path("log.txt");
+    const auto begin = std::chrono::steady_clock::now();
+    // Each thread wants 8 MB of addresses for its stack.
+    EXPECT_EQ(
+        place_.run_in_shell(words("out", {"--set", "montecarlo.realizations=1000", "--abreast",
+                                          "1000", "--threads", "1"}),
+                            ">/dev/null 2>'" + log + "'", "ulimit -s 8192; ulimit -v 4000000"),
+        2);
+    EXPECT_THAT(place_.read("log.txt"), HasSubstr("threads cannot be created"));
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 
 TEST_F(MonteCarlo, BadUseIsRefused) {

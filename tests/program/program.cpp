@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -104,6 +105,15 @@ nlohmann::json Workplace::json(const std::string& name) const {
 Outcome Workplace::run(const std::vector<std::string>& arguments,
                        const std::optional<SignalAfter>& signal) const {
     return run_program(arguments, folder_, signal);
+}
+
+int Workplace::run_in_shell(const std::vector<std::string>& arguments,
+                            const std::string& redirections, const std::string& before) const {
+    std::string command = before + "\n" GRAINFIELD_PROGRAM;
+    for (const std::string& word : arguments) command += " '" + word + "'";
+    command += " " + redirections + "\nexit ${PIPESTATUS[0]}\n";
+    const int status = std::system(("bash '" + write("command.sh", command) + "'").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 Outcome Workplace::simulate(const std::string& spheres, const std::string& scene,

@@ -46,6 +46,10 @@ class Workplace {
     nlohmann::json json(const std::string& name) const;
     Outcome run(const std::vector<std::string>& arguments,
                 const std::optional<SignalAfter>& signal = std::nullopt) const;
+    /// Runs the program in bash: after `before`, and with these redirections. Returns the program's
+    /// exit code, 128 + signal where a signal ended it, also where a pipe follows.
+    int run_in_shell(const std::vector<std::string>& arguments, const std::string& redirections,
+                     const std::string& before = ":") const;
     /// Writes spheres.csv and scene.toml, runs `simulate` into "run" with `more` arguments.
     Outcome simulate(const std::string& spheres, const std::string& scene,
                      const std::vector<std::string>& more = {}) const;

@@ -135,7 +135,7 @@ TEST(SimulateRun, ASignalEndsWith130AndResumingGivesTheSameFiles) {
                               floor_wall + "[output]\ninterval = 1e-3\n[damping]\nforce = 0.1\n";
     const Workplace undisturbed;
     ASSERT_EQ(undisturbed.simulate(lattice(4), scene).code, 0);
-    for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGKILL}) {
         const Workplace place;
         place.write("spheres.csv", lattice(4));
         const std::string file = place.write("scene.toml", scene);

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "core/base/errors.hpp"
+#include "tests/report/hostile_names.hpp"
 #include "tests/report/run_fixture.hpp"
 #include "triaxial/report/campaign/campaign_figures.hpp"
 
@@ -63,28 +64,10 @@ std::string shown(const std::string& svg) {
     return text;
 }
 
-/// Names that would make a file, were any part of them run or read as markup.
-std::vector<std::string> hostile_names(const std::string& touch) {
-    return {"`" + touch + "`",
-            "a'b",
-            "'; system('" + touch + "'); '",
-            "\"; system('" + touch + "'); \"",
-            "x\n!" + touch + "\nsystem('" + touch + "')",
-            "@main @name $trends",
-            "a_b^c {/:Bold d} &{e} ~f{g} \\h \\101",
-            "EOD\n!" + touch + "\nEOD",
-            "#{} } else { !" + touch,
-            "<script>alert(1)</script> & <b>",
-            "\\",
-            "'",
-            "%s %n %d",
-            "x' . system('" + touch + "') . '"};
-}
-
 TEST(HostileNames, AreDrawnAsTheyAreAndRunNothing) {
     const fixture::TestFolder folder;
     const std::string made = folder.path() / "made";
-    const std::vector<std::string> names = hostile_names("touch " + made);
+    const std::vector<std::string> names = fixture::hostile_names("touch " + made);
     constexpr GnuplotTemplate all[] = {{"names", R"(set key noautotitle
 do for [k=1:|name|] { set label name[k] at 0,k }
 set xlabel one
@@ -114,7 +97,7 @@ TEST(HostileNames, InATrendRunNothing) {
             s.mean_interval = statistics::Interval{2, 4};
         }
     std::vector<Trend> trends;
-    for (const std::string& name : hostile_names("touch " + made))
+    for (const std::string& name : fixture::hostile_names("touch " + made))
         trends.push_back({name, {{1, 0}, {2, 1}}});
     for (const Trend& trend : trends) trend_figure(gnuplot, "t", 0, {trend.name}, trends, all);
     EXPECT_FALSE(std::filesystem::exists(made));

@@ -22,8 +22,9 @@ namespace grainfield::repository {
 /// example calls its file. Matched by the last part of a path.
 inline constexpr std::array foreign_files = std::to_array<std::string_view>(
     {// of a packing, a run, a scene
-     "P.h5", "P.json", "packing.h5", "packing.json", "state.h5", "summary.json", "curve.csv",
-     "energy.csv", "contacts.csv", "trajectory.csv", "config.toml", "report.html",
+     "P.h5", "P.json", "packing.h5", "packing.part.h5", "packing.json", "state.h5",
+     "state.failed.h5", "summary.json", "curve.csv", "energy.csv", "contacts.csv", "trajectory.csv",
+     "config.toml", "report.html",
      // of a campaign, of `field`
      "results.csv", "deterministic.csv", "failures.csv", "statistics.csv", "campaign.json",
      "NAME.toml", "HASH.h5", "field.csv", "verification.html", "correlation.csv", "histogram.csv",

@@ -11,6 +11,7 @@
 #include <exception>
 #include <future>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 #include "core/base/errors.hpp"
@@ -40,6 +41,13 @@ std::vector<Row> rows_of(const Job& job, const Row& result,
     return rows;
 }
 
+std::string no_threads(const std::system_error& error, int wanted) {
+    return fmt::format(
+        "{} threads cannot be created: {}; lower --abreast or --threads, or raise the limits "
+        "(ulimit -u, ulimit -v)",
+        wanted, error.what());
+}
+
 /// Workers that share the threads: each takes the next job that nobody has taken.
 class WorkerPool {
   public:
@@ -53,10 +61,13 @@ class WorkerPool {
     void run(int abreast, int threads, Progress& progress, core::Monitor& monitor) {
         std::vector<std::jthread> workers;
         working_ = abreast;
-        for (int w = 0; w < abreast; ++w)
-            workers.emplace_back([this, threads, &progress] { work(threads, progress); });
         try {
+            for (int w = 0; w < abreast; ++w)
+                workers.emplace_back([this, threads, &progress] { work(threads, progress); });
             supervise(progress, monitor);
+        } catch (const std::system_error& error) {
+            stop_ = true;
+            throw InputError(no_threads(error, abreast));
         } catch (...) {  // or the workers would go on to the end
             stop_ = true;
             throw;
@@ -177,14 +188,20 @@ std::vector<Job> left_of(std::vector<Job> plan, const std::map<RowPlace, Row>& f
 CampaignResult run_campaign(CampaignFolder& folder, const CampaignOptions& options,
                             core::Monitor& monitor) {
     std::vector<Job> todo =
-        left_of(plan_campaign(folder.cases(), folder.shard()), folder.finished(), folder);
+        left_of(plan_campaign(folder.cases(), folder.shard(), monitor), folder.finished(), folder);
     Starts starts(folder.path(), folder.packing());
     // In a thread that ends: OpenMP counts its team as long as it lives, and teams that together
     // have more threads than there are cores go to sleep at every barrier.
-    std::async(std::launch::async, [&] {
-        omp_set_num_threads(options.threads);
-        for (const Job& job : todo) starts.prepare(*job.start, monitor);
-    }).get();
+    std::future<void> prepared;
+    try {
+        prepared = std::async(std::launch::async, [&] {
+            omp_set_num_threads(options.threads);
+            for (const Job& job : todo) starts.prepare(*job.start, monitor);
+        });
+    } catch (const std::system_error& error) {
+        throw InputError(no_threads(error, 1));
+    }
+    prepared.get();
 
     const int runs = static_cast<int>(std::min<std::size_t>(todo.size(), 1024));
     const int usual = std::max(1, options.threads / threads_a_run(starts.largest()));

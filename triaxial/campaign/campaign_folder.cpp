@@ -12,9 +12,11 @@
 #include "core/base/errors.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/folder.hpp"
+#include "core/files/json_text.hpp"
 #include "core/files/text_file.hpp"
 #include "core/kernel_choice.hpp"
 #include "triaxial/campaign/stopping.hpp"
+#include "triaxial/cli/interrupt.hpp"
 #include "triaxial/config/campaign_keys.hpp"
 #include "triaxial/config/write_config.hpp"
 
@@ -23,10 +25,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A case's name as part of the name of a file.
-std::string file_name(std::string name) {
-    std::replace(name.begin(), name.end(), ' ', '_');
-    return name;
+/// A case's name as part of the name of a file, whatever another folder's journal calls a case.
+std::string file_name(const std::string& name) {
+    std::string file = case_file_name(name);
+    std::replace(file.begin(), file.end(), '/', '_');
+    return file;
+}
+
+/// The cases of a folder must not share files, those of an earlier call included.
+void check_file_names(const nlohmann::json& cases) {
+    std::map<std::string, std::string> names;
+    for (const auto& [name, one] : cases.items()) {
+        const auto [other, is_new] = names.try_emplace(file_name(name), name);
+        if (!is_new)
+            throw InputError(
+                fmt::format("the cases \"{}\" and \"{}\" would share their files: one of them is "
+                            "in the folder already; names must differ in more than blanks and _",
+                            other->second, name));
+    }
 }
 
 std::string case_text(const CampaignCase& one) {
@@ -70,7 +86,9 @@ nlohmann::json identity_of(const std::vector<CampaignCase>& cases,
 }
 
 nlohmann::json read_json(const fs::path& file) {
-    auto json = nlohmann::json::parse(core::read_whole_file(file), nullptr, false);
+    const std::string text = core::read_whole_file(file);
+    auto json = core::nested_too_deep(text) ? nlohmann::json()
+                                            : nlohmann::json::parse(text, nullptr, false);
     if (!json.is_object() || !json.contains("cases") || !json["cases"].is_object())
         throw FileError(fmt::format("{}: damaged; it is not what a campaign wrote", file.string()));
     return json;
@@ -144,6 +162,8 @@ CampaignFolder::CampaignFolder(fs::path path, const std::vector<CampaignCase>& c
       locks_(lock_shard(path_, shard)),
       journal_(path_ / journal_name(shard)) {
     for (std::size_t c = 0; c < cases.size(); ++c) case_index_[cases[c].name] = c;
+    for (const char* folder : {".", "cases", "packings", "starts", "failed"})
+        core::remove_abandoned_files(path_ / folder);
     check_identity();
 }
 
@@ -169,7 +189,9 @@ std::vector<FileLock> CampaignFolder::lock_shard(const fs::path& folder, const S
 
 /// Only one process at a time writes what the shards have in common.
 FileLock CampaignFolder::lock_results() const {
-    return FileLock::wait_for(path_ / "results.lock", [] {});
+    return FileLock::wait_for(path_ / "results.lock", [] {
+        if (interrupt_requested()) throw Interrupted("stopped by the user");
+    });
 }
 
 void CampaignFolder::check_identity() const {
@@ -181,24 +203,36 @@ void CampaignFolder::check_identity() const {
         compare(there, here, path_);
         for (const auto& [name, one] : there["cases"].items())
             if (!here["cases"].contains(name)) here["cases"][name] = one;
+        check_file_names(here["cases"]);
         here["machines"] = there.value("machines", nlohmann::json::array());
         nlohmann::json& machines = here["machines"];
         if (std::find(machines.begin(), machines.end(), nlohmann::json(machine())) ==
             machines.end())
             machines.push_back(machine());
-        if (here == there) return;
+        if (here == there) {
+            write_cases(false);
+            return;
+        }
     } else {
         here["machines"] = nlohmann::json::array({machine()});
     }
     core::write_file_atomically(file, here.dump(2) + "\n");
+    write_cases(true);
+}
+
+/// A kill may have come between campaign.json and these: what is missing is written whenever the
+/// folder is opened.
+void CampaignFolder::write_cases(bool all) const {
     core::create_folder(path_ / "cases");
-    for (const CampaignCase& one : cases_)
+    for (const CampaignCase& one : cases_) {
+        const fs::path file = path_ / "cases" / (file_name(one.name) + ".toml");
+        if (!all && fs::exists(file)) continue;
         core::write_file_atomically(
-            path_ / "cases" / (file_name(one.name) + ".toml"),
-            fmt::format("# Row K of this case: grainfield triaxial with this file, --packing "
-                        "starts/{}.h5 --realization K\n",
-                        start_inputs(one.config).hash) +
-                case_text(one));
+            file, fmt::format("# Row K of this case: grainfield triaxial with this file, --packing "
+                              "starts/{}.h5 --realization K\n",
+                              start_inputs(one.config).hash) +
+                      case_text(one));
+    }
 }
 
 std::map<RowPlace, Row> CampaignFolder::finished() const {

@@ -57,6 +57,7 @@ class CampaignFolder {
     SweptColumns swept_columns() const;
     /// Throws if the folder is another campaign's; else writes campaign.json and cases/.
     void check_identity() const;
+    void write_cases(bool all) const;  // else those that are missing
 
     std::filesystem::path path_;
     const std::vector<CampaignCase>& cases_;

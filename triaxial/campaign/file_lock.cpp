@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -10,6 +11,7 @@
 #include <chrono>
 #include <thread>
 #include <tuple>
+#include <utility>
 
 #include "core/base/errors.hpp"
 #include "core/files/text_file.hpp"
@@ -40,6 +42,18 @@ std::optional<FileLock> FileLock::try_lock(const std::filesystem::path& path, Ki
 
 FileLock::FileLock(FileLock&& other) noexcept : file_(other.file_) {
     other.file_ = -1;
+}
+
+FileLock& FileLock::operator=(FileLock&& other) noexcept {
+    std::swap(file_, other.file_);
+    return *this;
+}
+
+bool FileLock::is_at(const std::filesystem::path& path) const {
+    struct stat locked {
+    }, found{};
+    return ::fstat(file_, &locked) == 0 && ::stat(path.c_str(), &found) == 0 &&
+           locked.st_dev == found.st_dev && locked.st_ino == found.st_ino;
 }
 
 FileLock::~FileLock() {

@@ -20,8 +20,11 @@ class FileLock {
     static FileLock wait_for(const std::filesystem::path& path, const Waiting& waiting);
 
     FileLock(FileLock&& other) noexcept;
-    FileLock& operator=(FileLock&&) = delete;
+    FileLock& operator=(FileLock&& other) noexcept;
     ~FileLock();
+
+    /// Whether the file of this name is the one that is locked, not one made since.
+    bool is_at(const std::filesystem::path& path) const;
 
   private:
     explicit FileLock(int file) : file_(file) {}

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/base/monitor.hpp"
 #include "triaxial/campaign/inputs.hpp"
 #include "triaxial/config/load_config.hpp"
 
@@ -34,7 +35,12 @@ struct Job {
 };
 
 /// All runs of a shard, realization by realization, so that every case grows alike; deterministic
-/// runs, if the campaign wants them, come first and belong to the first shard.
-std::vector<Job> plan_campaign(const std::vector<CampaignCase>& cases, const Shard& shard);
+/// runs, if the campaign wants them, come first and belong to the first shard. InputError: the
+/// shard has more than most_rows; Interrupted where the monitor asks to stop.
+std::vector<Job> plan_campaign(const std::vector<CampaignCase>& cases, const Shard& shard,
+                               const core::Monitor& monitor = {});
+
+/// Rows of a shard, at most: they are all in memory [-].
+inline constexpr std::int64_t most_rows = 10'000'000;
 
 }  // namespace grainfield::triaxial

@@ -50,6 +50,7 @@ std::string row_line(const Row& r) {
 }
 
 bool parse_row(std::string_view line, Row& row) {
+    if (core::nested_too_deep(line)) return false;
     const auto json = nlohmann::json::parse(line, nullptr, false);
     if (!json.is_object()) return false;
     try {

@@ -7,8 +7,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/base/monitor.hpp"
+#include "core/files/sphere_file.hpp"
 #include "triaxial/campaign/inputs.hpp"
 #include "triaxial/realization/triaxial_test.hpp"
 
@@ -21,8 +23,8 @@ class Starts {
     Starts(std::filesystem::path folder, std::optional<std::filesystem::path> packing);
 
     /// Makes the start of these inputs, or reads it where it is there; other processes that want
-    /// the same wait. Uses all threads. A sample that cannot be made is remembered by its reason.
-    /// Throws what reading and writing throw, and Interrupted.
+    /// the same wait. One that is damaged is made again. Uses all threads. A sample that cannot be
+    /// made is remembered by its reason. Throws what reading and writing throw, and Interrupted.
     void prepare(const Inputs& start, core::Monitor& monitor);
 
     /// A prepared start. Throws SimulationError with the reason if it cannot be made.
@@ -35,7 +37,8 @@ class Starts {
         Sample sample;
         std::string failure;  // empty: none
     };
-    std::filesystem::path packing_file(const Config& config, core::Monitor& monitor);
+    std::pair<core::SphereFile, std::filesystem::path> packing_of(const Config& config,
+                                                                  core::Monitor& monitor);
     Start make(const Config& config, const std::filesystem::path& file, core::Monitor& monitor);
 
     std::filesystem::path folder_;

@@ -5,11 +5,14 @@
 #include <tbb/global_control.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <new>
+#include <system_error>
 
 #include "core/base/errors.hpp"
-#include "randomfield/memory_limit.hpp"
+#include "core/base/memory_limit.hpp"
 #include "triaxial/cli/commands.hpp"
+#include "triaxial/cli/standard_streams.hpp"
 #include "triaxial/cli/terminal_monitor.hpp"
 #include "triaxial/config/load_config.hpp"
 
@@ -35,14 +38,25 @@ void add_commands(CommandLine& line) {
     add_info_command(line);
 }
 
-/// What was printed may still sit in a buffer, or the pipe's disk be full.
-void flush_results() {
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-        throw FileError("standard output: cannot be written");
+/// `--set a=1 b=2` would take b=2 for the name of a file.
+void require_one_setting_each(const std::vector<std::string>& words) {
+    for (std::size_t k = 1; k < words.size(); ++k) {
+        const bool joined = words[k].starts_with("--set=");
+        const std::size_t next = k + (joined ? 1 : 2);
+        if ((!joined && words[k] != "--set") || next >= words.size()) continue;
+        const std::string& word = words[next];
+        std::error_code ignored;
+        if (!word.starts_with('-') && word.find('=') != std::string::npos &&
+            word.find('=') < word.find('/') && !std::filesystem::exists(word, ignored))
+            throw UsageError(fmt::format(
+                "{}: there is no such file, and --set takes one key.path=value: give --set again "
+                "for each key",
+                word));
+    }
 }
 
 int fail(int code, std::string_view message) {
-    fmt::print(stderr, "grainfield: {}\n", message);
+    write_log(fmt::format("grainfield: {}\n", message));
     return code;
 }
 
@@ -56,7 +70,7 @@ CommandLine::CommandLine()
 }
 
 ArgumentParser CommandLine::add(const std::string& name, const std::string& description,
-                                const std::string& example, Run run, OnSignal reaction) {
+                                const std::string& example, Run run) {
     ArgumentParser command = program_.add_subcommand(name, description);
     command.set_footer("Example:\n  " + example);
     command.add("--threads", threads_, "Threads to use (default: all that OpenMP gives)")
@@ -66,7 +80,7 @@ ArgumentParser CommandLine::add(const std::string& name, const std::string& desc
     command.add("--isa", isa_,
                 "Instruction set: auto, scalar, avx2 or avx512; short for solver.isa");
     command.add_flag("--quiet", quiet_, "No progress on stderr, errors only");
-    commands_[name] = {std::move(run), reaction};
+    commands_[name] = std::move(run);
     return command;
 }
 
@@ -77,23 +91,23 @@ void CommandLine::run(int argc, const char* const* argv) {
         for (const auto& [name, command] : commands_) names += (names.empty() ? "" : ", ") + name;
         throw InputError(fmt::format("'{}' is no subcommand; allowed: {}", first, names));
     }
+    require_one_setting_each({argv, argv + argc});
     if (!program_.parse(argc, argv)) return;  // --help, --version
     if (program_.chosen().empty()) {
-        fmt::print(stderr, "{}\n", program_.help());
+        write_log(program_.help() + "\n");
         throw InputError("a subcommand is needed");
     }
-    const Command& command = commands_.at(program_.chosen());
     if (threads_ == 0) threads_ = std::min(omp_get_max_threads(), most_threads);
     omp_set_num_threads(threads_);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads_));
-    handle_signals(command.reaction);
+    handle_signals(OnSignal::end_at_once);
     // Results wait in the buffer until the last line of progress is off the terminal.
     std::setvbuf(stdout, nullptr, _IOFBF, std::size_t{1} << 16);
     TerminalMonitor monitor(quiet_);
     if (!isa_.empty()) settings_.push_back("solver.isa=" + isa_);
     Session session{settings_, monitor, threads_};
-    command.run(session);
+    commands_.at(program_.chosen())(session);
     monitor.finish();
     flush_results();
 }
@@ -105,6 +119,8 @@ void note_unused_settings(const Session& session) {
 }
 
 int run_program(int argc, const char* const* argv) {
+    open_standard_streams();
+    ignore_write_signals();
     CommandLine line;
     add_commands(line);
     try {
@@ -124,7 +140,7 @@ int run_program(int argc, const char* const* argv) {
         return fail(2, fmt::format("memory ran out: allowed is what fits the {:.3g} GB there are; "
                                    "lower packing.blocks, --realizations or the number of runs "
                                    "side by side (--abreast)",
-                                   1e-9 * randomfield::memory_of_process()));
+                                   1e-9 * core::memory_of_process()));
     } catch (const std::exception& error) {
         return fail(1, fmt::format("unexpected: {}", error.what()));
     }

@@ -36,21 +36,17 @@ class CommandLine {
 
     CommandLine();
     /// Adds a subcommand with --threads, --set, --quiet and the example in its help. `run` is
-    /// called once everything is parsed; it reports by exceptions (core/base/errors.hpp) only.
+    /// called once everything is parsed; it reports by exceptions (core/base/errors.hpp) only. A
+    /// signal ends the program at once until it calls handle_signals(OnSignal::stop_safely).
     ArgumentParser add(const std::string& name, const std::string& description,
-                       const std::string& example, Run run,
-                       OnSignal reaction = OnSignal::stop_safely);
+                       const std::string& example, Run run);
 
     /// Parses and runs. Throws UsageError and what the subcommand throws.
     void run(int argc, const char* const* argv);
 
   private:
-    struct Command {
-        Run run;
-        OnSignal reaction = OnSignal::stop_safely;
-    };
     ArgumentParser program_;
-    std::map<std::string, Command, std::less<>> commands_;
+    std::map<std::string, Run, std::less<>> commands_;
     int threads_ = 0;  // 0: as OpenMP gives
     std::vector<std::string> settings_;
     std::string isa_;

@@ -71,6 +71,7 @@ void run_convert(const ConvertArguments& arguments, Session& session) {
     if (same_file(arguments.in, arguments.out))
         throw InputError(
             fmt::format("{}: IN and OUT are the same file; they must differ", arguments.out));
+    core::require_sphere_suffix(arguments.out);
     const core::SphereFile file = core::read_spheres(arguments.in);
     core::check_spheres(file.spheres, arguments.in, file.lines);
     core::write_spheres(arguments.out, file);
@@ -90,12 +91,12 @@ void run_convert(const ConvertArguments& arguments, Session& session) {
 
 void add_convert_command(CommandLine& line) {
     auto arguments = std::make_shared<ConvertArguments>();
-    ArgumentParser command = line.add(
-        "convert",
-        fmt::format("Converts a file of spheres; the suffixes say the formats: {}.",
-                    core::sphere_file_suffixes),
-        "grainfield convert packing.h5 packing.data",
-        [arguments](Session& session) { run_convert(*arguments, session); }, OnSignal::end_at_once);
+    ArgumentParser command =
+        line.add("convert",
+                 fmt::format("Converts a file of spheres; the suffixes say the formats: {}.",
+                             core::sphere_file_suffixes),
+                 "grainfield convert packing.h5 packing.data",
+                 [arguments](Session& session) { run_convert(*arguments, session); });
     command.add("in", arguments->in, "File to read").required();
     command.add("out", arguments->out, "File to write, another than IN").required();
 }

@@ -111,8 +111,8 @@ void print_fields(const randomfield::FieldGenerator& generator, const FieldArgum
 void print_verdicts(const std::vector<report::Verdict>& verdicts) {
     std::size_t outside = 0;
     for (const report::Verdict& verdict : verdicts) {
-        fmt::print("{:<40}{:<9}{}\n", verdict.check, verdict.inside ? "inside" : "OUTSIDE",
-                   verdict.finding);
+        write_result(fmt::format("{:<40}{:<9}{}\n", verdict.check,
+                                 verdict.inside ? "inside" : "OUTSIDE", verdict.finding));
         outside += verdict.inside ? 0 : 1;
     }
     print_row("verdict", outside == 0 ? "every check is inside its band"
@@ -135,6 +135,7 @@ void verify_field(const randomfield::FieldGenerator& generator, const FieldArgum
 void run_field(const FieldArguments& arguments, Session& session) {
     const Config config = load_config(arguments.config, session.settings);
     const std::uint64_t count = arguments.count();
+    if (arguments.writes_fields()) randomfield::require_field_suffix(arguments.out);
     const auto start = std::chrono::steady_clock::now();
     session.monitor.begin("drawing the field");
     const randomfield::FieldGenerator generator({config.packing.blocks, config.packing.block},
@@ -155,10 +156,10 @@ void run_field(const FieldArguments& arguments, Session& session) {
 
 void add_field_command(CommandLine& line) {
     auto arguments = std::make_shared<FieldArguments>();
-    ArgumentParser command = line.add(
-        "field", "Draws realizations of the random field on the grid of blocks.",
-        "grainfield field --set field.variable=friction --realizations 3 --out field.csv",
-        [arguments](Session& session) { run_field(*arguments, session); }, OnSignal::end_at_once);
+    ArgumentParser command =
+        line.add("field", "Draws realizations of the random field on the grid of blocks.",
+                 "grainfield field --set field.variable=friction --realizations 3 --out field.csv",
+                 [arguments](Session& session) { run_field(*arguments, session); });
     command.add("config", arguments->config, "Config (TOML); without one the case of Tran et al.");
     command.add("--realizations", arguments->realizations,
                 "How many, 1 unless given; with --verify 2000, at least 100");

@@ -15,6 +15,8 @@ std::atomic<bool> requested{false};
 std::atomic<bool> at_once{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
+constexpr int interrupted = 130;  // the exit code
+
 /// One request may come twice: `timeout` sends its signal to the process and to its group.
 constexpr std::int64_t same_request = 500'000'000;  // [ns]
 std::atomic<std::int64_t> first_request{0};         // on the monotonic clock [ns]
@@ -27,12 +29,12 @@ std::int64_t now() {
 }
 
 extern "C" void on_signal(int signal) {
-    if (at_once.load()) ::_exit(128 + signal);
+    if (at_once.load()) ::_exit(interrupted);
     const std::int64_t time = now();
     std::int64_t none = 0;
     if (first_request.compare_exchange_strong(none, time))
         requested = true;
-    else if (time - none > same_request)
+    else if (signal != SIGXCPU && time - none > same_request)
         ::_exit(128 + signal);
 }
 
@@ -44,11 +46,24 @@ void handle_signals(OnSignal reaction) {
     action.sa_handler = on_signal;
     action.sa_flags = SA_RESTART;  // a write to a file is not cut short by a polite request
     ::sigemptyset(&action.sa_mask);
-    for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
+    for (const int signal : {SIGINT, SIGTERM, SIGXCPU}) ::sigaction(signal, &action, nullptr);
+    struct sigaction before {};
+    ::sigaction(SIGHUP, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
+}
+
+void ignore_write_signals() {
+    for (const int signal : {SIGPIPE, SIGXFSZ}) ::signal(signal, SIG_IGN);
 }
 
 bool interrupt_requested() {
     return requested.load();
+}
+
+StopSafely::StopSafely() : at_once_(at_once.exchange(false)) {}
+
+StopSafely::~StopSafely() {
+    at_once = at_once_;
 }
 
 }  // namespace grainfield::triaxial

@@ -94,6 +94,7 @@ void run_montecarlo(const MonteCarloArguments& arguments, Session& session) {
         print_row("rows taken over", fmt::format("{}", taken));
         print_cases(cases, folder.write_results());
     } else {
+        handle_signals(OnSignal::stop_safely);
         const CampaignResult result =
             run_campaign(folder, {session.threads, arguments.abreast}, session.monitor);
         print_row("rows computed", fmt::format("{}", result.computed));

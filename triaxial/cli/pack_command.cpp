@@ -6,9 +6,11 @@
 #include <optional>
 
 #include "core/files/json_text.hpp"
+#include "core/files/sphere_file.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/print_row.hpp"
 #include "triaxial/cli/resumable_run.hpp"
+#include "triaxial/cli/run_lock.hpp"
 #include "triaxial/config/load_config.hpp"
 #include "triaxial/config/write_config.hpp"
 #include "triaxial/realization/packing_files.hpp"
@@ -55,6 +57,8 @@ void run_pack(const PackArguments& arguments, Session& session) {
     const auto beside = [&](const char* suffix) {
         return std::filesystem::path(arguments.out).replace_extension(suffix);
     };
+    core::require_sphere_suffix(arguments.out);
+    const RunLock lock = RunLock::of_file(arguments.out);
     const auto found = arguments.checkpoints.find(beside(".checkpoint.bin"), session.monitor);
     Config config = found ? resumed_config(*found, arguments.config, session.settings)
                           : load_config(arguments.config, session.settings);
@@ -65,10 +69,14 @@ void run_pack(const PackArguments& arguments, Session& session) {
     core::Checkpoint checkpoint(beside(".checkpoint.bin"), core::json_text(identity),
                                 arguments.checkpoints.every);
     if (found) checkpoint.resume(*found);
+    if (!found) CheckpointArguments::begin_anew(checkpoint.file(), session.monitor);
+    handle_signals(OnSignal::stop_safely);
     ResumableRun resumable(session.monitor, beside(".failed.h5"), checkpoint);
     const packing::Packing packed =
         resumable.run([&] { return pack(config, resumable, &checkpoint); });
     write_packing(arguments.out, packed, packed.seconds());
+    std::error_code ignored;
+    std::filesystem::remove(beside(".failed.h5"), ignored);  // of an earlier run
     checkpoint.remove();
     print_packing(packed);
     print_row("time", fmt::format("{:.1f} s", packed.seconds()));

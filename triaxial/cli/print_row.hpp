@@ -5,10 +5,12 @@
 
 #include <string_view>
 
+#include "triaxial/cli/standard_streams.hpp"
+
 namespace grainfield::triaxial {
 
 inline void print_row(std::string_view name, std::string_view value) {
-    fmt::print("{:<24}{}\n", name, value);
+    write_result(fmt::format("{:<24}{}\n", name, value));
 }
 
 }  // namespace grainfield::triaxial

@@ -7,6 +7,7 @@
 #include "core/base/errors.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/print_row.hpp"
+#include "triaxial/cli/run_lock.hpp"
 #include "triaxial/report/campaign/campaign_data.hpp"
 #include "triaxial/report/campaign/campaign_report.hpp"
 #include "triaxial/report/report.hpp"
@@ -26,6 +27,9 @@ void run_report(const ReportArguments& arguments, Session& session) {
     const std::vector<std::filesystem::path> companions(arguments.companions.begin(),
                                                         arguments.companions.end());
     if (!report::is_campaign(arguments.folder)) {
+        if (!std::filesystem::is_directory(arguments.folder))
+            throw FileError(fmt::format("{}: no such folder", arguments.folder));
+        const RunLock lock = RunLock::of_folder(arguments.folder);
         print_row("report", write_report(arguments.folder, companions).string());
         for (const auto& companion : companions) {
             const std::string difference = report::soil_difference(
@@ -50,7 +54,7 @@ void add_report_command(CommandLine& line) {
         "report",
         "Makes DIR/report.html, one page with the figures of a triaxial run or of a campaign.",
         "grainfield report run-100kPa run-200kPa",
-        [arguments](Session& session) { run_report(*arguments, session); }, OnSignal::end_at_once);
+        [arguments](Session& session) { run_report(*arguments, session); });
     command.add("dir", arguments->folder, "Folder of a triaxial run or a campaign").required();
     command.add("more", arguments->companions,
                 "Folders of runs at other confining stresses, for a common failure envelope");

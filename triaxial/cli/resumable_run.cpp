@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/files/checksum.hpp"
 #include "core/kernel_choice.hpp"
 #include "triaxial/config/load_config.hpp"
 #include "triaxial/config/write_config.hpp"
@@ -49,6 +50,29 @@ std::optional<core::FoundCheckpoint> CheckpointArguments::find(const std::filesy
     for (const std::string& bad : found->bad) monitor.note(bad);
     monitor.note(fmt::format("goes on from {}", found->file.string()));
     return found;
+}
+
+void CheckpointArguments::begin_anew(const std::filesystem::path& file, core::Monitor& monitor) {
+    if (const auto stale = core::put_checkpoint_away(file))
+        monitor.note(fmt::format("begins anew; the checkpoint of an earlier run is {} now",
+                                 stale->string()));
+}
+
+std::string input_checksum(const std::filesystem::path& file) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(file, ignored) ? core::checksum_of_file(file)
+                                                           : std::string();
+}
+
+void check_input(const core::FoundCheckpoint& found, const char* key,
+                 const std::filesystem::path& file) {
+    const std::string before = nlohmann::json::parse(found.identity).value(key, std::string());
+    const std::string now = input_checksum(file);
+    if (!before.empty() && !now.empty() && before != now)
+        throw InputError(
+            fmt::format("--resume: {} is not what it was when the run of {} began; without "
+                        "--resume it begins anew",
+                        file.string(), found.file.string()));
 }
 
 nlohmann::json run_identity(const std::string& command, const core::SolverOptions& solver) {

@@ -27,6 +27,8 @@ struct CheckpointArguments {
     /// FileError where none of those that are there can be used.
     std::optional<core::FoundCheckpoint> find(const std::filesystem::path& file,
                                               core::Monitor& monitor) const;
+    /// A run that begins: puts away what an earlier one left in `file`, and tells the monitor.
+    static void begin_anew(const std::filesystem::path& file, core::Monitor& monitor);
 };
 
 /// Config of a run that resumes: that of the checkpoint; what the command line says must agree with
@@ -36,6 +38,14 @@ Config resumed_config(const core::FoundCheckpoint& found, const std::optional<st
 
 /// What a checkpoint says of its run: the subcommand, the kernels, and what the subcommand adds.
 nlohmann::json run_identity(const std::string& command, const core::SolverOptions& solver);
+/// The checksum of a file that a run is made from, for its identity; empty where there is none, or
+/// where it is a pipe.
+std::string input_checksum(const std::filesystem::path& file);
+/// Throws InputError where a file is not what it was when the run began: the identity of its
+/// checkpoint has the file's checksum as `key`. A file that is gone may not be needed any more.
+void check_input(const core::FoundCheckpoint& found, const char* key,
+                 const std::filesystem::path& file);
+
 /// Kernels as the run that is resumed had them. Throws InputError where this is another subcommand.
 core::SolverOptions resumed_solver(const core::FoundCheckpoint& found, const std::string& command,
                                    core::SolverOptions solver);

@@ -9,7 +9,9 @@
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/print_row.hpp"
 #include "triaxial/cli/resumable_run.hpp"
+#include "triaxial/cli/run_lock.hpp"
 #include "triaxial/cli/terminal_monitor.hpp"
+#include "triaxial/realization/finished_run.hpp"
 #include "triaxial/scene/run_scene.hpp"
 
 namespace grainfield::triaxial {
@@ -22,7 +24,9 @@ constexpr const char* files_text =
     "                  work that moving walls put in\n"
     "  contacts.csv    contacts at the end; wall W is j = -1-W, the shear force is that on i\n"
     "  summary.json    counts, times, how well the energies close, hash of the final state\n"
-    "or, where the simulation fails, state.h5 alone; where it is interrupted, checkpoint.bin and\n"
+    "or, where the simulation fails, state.h5 alone (state.failed.h5 beside the files of an "
+    "earlier\n"
+    "run, which stay as they are); where it is interrupted, checkpoint.bin and\n"
     "the tables so far (.part), from which --resume goes on.\n";
 
 struct SimulateArguments {
@@ -38,15 +42,13 @@ std::string checksum_of_inputs(const SimulateArguments& arguments, const SceneFi
     add(core::read_whole_file(arguments.scene));
     for (const std::string& setting : settings) add(setting);
     add(core::read_whole_file(scene.spheres));
-    std::string hex;
-    for (const char byte : checksum.digest())
-        hex += fmt::format("{:02x}", static_cast<unsigned char>(byte));
-    return hex;
+    return core::hex_text(checksum.digest());
 }
 
 void run_simulate(const SimulateArguments& arguments, Session& session) {
     const std::filesystem::path out = arguments.out;
     const std::filesystem::path file = out / "checkpoint.bin";
+    const RunLock lock = RunLock::of_folder(out);
     const auto found = arguments.checkpoints.find(file, session.monitor);
     SceneFile scene = load_scene(arguments.scene, session.settings);
     if (found) scene.solver = resumed_solver(*found, "simulate", scene.solver);
@@ -59,7 +61,9 @@ void run_simulate(const SimulateArguments& arguments, Session& session) {
                         found->file.string(), arguments.scene));
     core::Checkpoint checkpoint(file, core::json_text(identity), arguments.checkpoints.every);
     if (found) checkpoint.resume(*found);
-    ResumableRun resumable(session.monitor, out / "state.h5", checkpoint);
+    if (!found) CheckpointArguments::begin_anew(file, session.monitor);
+    handle_signals(OnSignal::stop_safely);
+    ResumableRun resumable(session.monitor, failed_state_file(out), checkpoint);
     const SceneSummary s = resumable.run([&] {
         return run_scene(scene, arguments.scene, out, session.threads, resumable, &checkpoint);
     });

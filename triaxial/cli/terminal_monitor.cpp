@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "triaxial/cli/interrupt.hpp"
+#include "triaxial/cli/standard_streams.hpp"
 
 namespace grainfield::triaxial {
 namespace {
@@ -43,7 +43,7 @@ TerminalMonitor::TerminalMonitor(bool quiet)
     : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 TerminalMonitor::~TerminalMonitor() {
-    if (line_open_) std::fputc('\n', stderr);
+    if (line_open_) write_log("\n");
 }
 
 void TerminalMonitor::begin(std::string_view stage) {
@@ -52,7 +52,7 @@ void TerminalMonitor::begin(std::string_view stage) {
     started_ = shown_ = Clock::now();
     first_steps_ = last_steps_ = -1;
     if (quiet_ || !terminal_) return;
-    fmt::print(stderr, "{} ...", stage_);
+    write_log(stage_ + " ...");
     line_open_ = true;
 }
 
@@ -67,13 +67,12 @@ void TerminalMonitor::progress(double done, std::int64_t steps, std::string_view
     shown_ = now;
     std::string line = text(done, steps, detail);
     if (!terminal_) {
-        fmt::print(stderr, "{}\n", line);
+        write_log(line + "\n");
         return;
     }
     clear_line();
     line.resize(std::min(line.size(), terminal_width() - 1));  // a wrapped line cannot be rewritten
-    std::fputs(line.c_str(), stderr);
-    std::fflush(stderr);
+    write_log(line);
     line_open_ = true;
 }
 
@@ -94,7 +93,7 @@ std::string TerminalMonitor::text(double done, std::int64_t steps, std::string_v
 void TerminalMonitor::note(const std::string& line) {
     if (quiet_) return;
     clear_line();
-    fmt::print(stderr, "{}\n", line);
+    write_log(line + "\n");
 }
 
 void TerminalMonitor::finish() {
@@ -112,7 +111,7 @@ bool TerminalMonitor::stop_requested() const {
 
 void TerminalMonitor::clear_line() {
     if (!line_open_) return;
-    std::fputs("\r\x1b[K", stderr);
+    write_log("\r\x1b[K");
     line_open_ = false;
 }
 

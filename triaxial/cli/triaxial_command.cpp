@@ -11,7 +11,6 @@
 #include "core/base/stopwatch.hpp"
 #include "core/drive/step_control.hpp"
 #include "core/files/atomic_file.hpp"
-#include "core/files/folder.hpp"
 #include "core/files/json_text.hpp"
 #include "core/files/sphere_checks.hpp"
 #include "core/files/text_file.hpp"
@@ -20,8 +19,10 @@
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/print_row.hpp"
 #include "triaxial/cli/resumable_run.hpp"
+#include "triaxial/cli/run_lock.hpp"
 #include "triaxial/config/load_config.hpp"
 #include "triaxial/config/write_config.hpp"
+#include "triaxial/realization/finished_run.hpp"
 #include "triaxial/realization/given_packing.hpp"
 #include "triaxial/realization/packing_files.hpp"
 #include "triaxial/realization/run_files.hpp"
@@ -41,20 +42,21 @@ struct TriaxialArguments {
     CheckpointArguments checkpoints;
 };
 
-/// The sample from a file; packing.json follows it into the run's folder where it exists.
+/// The sample from a file; where there is a packing.json, it will follow into the run's folder.
 Sample sample_from_file(const fs::path& path, const Config& config, const fs::path& out,
                         core::Monitor& monitor) {
     core::SphereFile file = read_packing(path, config);
     for (const std::string& note : file.notes)
         monitor.note(fmt::format("{}: {}", path.string(), note));
     if (fs::exists(json_beside(path)) && file.kind == "packing")
-        core::write_file_atomically(out / "packing.json", core::read_whole_file(json_beside(path)));
+        core::write_file_atomically(out / "packing.part.json",
+                                    core::read_whole_file(json_beside(path)));
     return sample_of(std::move(file), path);
 }
 
 Sample sample_from_nothing(const Config& config, const fs::path& out, core::Monitor& monitor,
                            core::Checkpoint& checkpoint) {
-    packing::Packing packed = pack_into(out / "packing.h5", config, monitor, &checkpoint);
+    packing::Packing packed = pack_into(packing_in_progress(out), config, monitor, &checkpoint);
     return {std::move(packed.spheres), packed.box};
 }
 
@@ -106,6 +108,11 @@ std::string step_warning(core::Simulation& simulation, const core::TimeOptions& 
     return control.exceeded_text();
 }
 
+/// The file of measured values, if it matters.
+std::string field_data(const Config& config) {
+    return config.field.variable == randomfield::Variable::none ? "" : config.field.data;
+}
+
 /// What was asked for, completed by the checkpoint where the run resumes.
 Run prepare_run(const TriaxialArguments& arguments, const fs::path& checkpoint, Session& session) {
     Run run;
@@ -122,7 +129,7 @@ Run prepare_run(const TriaxialArguments& arguments, const fs::path& checkpoint, 
         run.used = before.value("used", asked);
         run.config = parse_config(run.used, run.found->file.string());
         run.config.solver = resumed_solver(*run.found, "triaxial", run.config.solver);
-        const std::string packing = before.at("packing");
+        const std::string packing = core::bytes_of_json(before.at("packing"));
         if (arguments.packing.value_or(packing) != packing)
             throw InputError(fmt::format("--packing = {}: the checkpoint is of \"{}\"",
                                          *arguments.packing, packing));
@@ -131,6 +138,8 @@ Run prepare_run(const TriaxialArguments& arguments, const fs::path& checkpoint, 
                                          run.realization,
                                          before.at("realization").get<std::int64_t>()));
         if (!packing.empty()) run.packing = packing;
+        check_input(*run.found, "packing_checksum", packing);
+        check_input(*run.found, "data_checksum", field_data(run.config));
         run.realization = before.at("realization");
     } else {
         const auto [config, given] = load_given_config(arguments.config, session.settings);
@@ -146,7 +155,10 @@ Run prepare_run(const TriaxialArguments& arguments, const fs::path& checkpoint, 
     run.identity = run_identity("triaxial", run.config.solver);
     run.identity["config"] = asked;
     run.identity["used"] = run.used;
-    run.identity["packing"] = run.packing.value_or("");
+    run.identity["packing"] = core::json_of_bytes(run.packing.value_or(""));
+    // A path may get another content.
+    run.identity["packing_checksum"] = input_checksum(run.packing.value_or(""));
+    run.identity["data_checksum"] = input_checksum(field_data(run.config));
     run.identity["realization"] = run.realization;
     return run;
 }
@@ -189,21 +201,34 @@ std::string config_text(const Run& run) {
     return fmt::format(
         "# Sample: {}. What [packing] and [grading] say is true of it as far as it is known;\n"
         "# seed, gravity, spheres and grading only of packings of grainfield.\n{}",
-        fs::path(*run.packing).filename().string(), run.used);
+        core::json_text(core::json_of_bytes(fs::path(*run.packing).filename().string())), run.used);
+}
+
+/// What an earlier run in the folder said of its packing is not true of this one's.
+void drop_other_packing(const fs::path& packing, const fs::path& out) {
+    std::error_code ignored;
+    const fs::path json = out / "packing.json";
+    if (!fs::equivalent(json_beside(packing), json, ignored)) fs::remove(json, ignored);
 }
 
 void run_triaxial(const TriaxialArguments& arguments, Session& session) {
     const fs::path out = arguments.out;
     const fs::path checkpoint_file = out / "checkpoint.bin";
+    const RunLock lock = RunLock::of_folder(out);
     const Run run = prepare_run(arguments, checkpoint_file, session);
     const Config& config = run.config;
     check_field_data(config);
     const kernels::KernelTable& kernels = core::choose_kernels(config.solver);
-    core::create_folder(out);
     core::Checkpoint checkpoint(checkpoint_file, core::json_text(run.identity),
                                 arguments.checkpoints.every);
-    if (run.found) checkpoint.resume(*run.found);
-    ResumableRun resumable(session.monitor, out / "state.h5", checkpoint);
+    if (run.found) {
+        checkpoint.resume(*run.found);
+    } else {
+        CheckpointArguments::begin_anew(checkpoint_file, session.monitor);
+        drop_packing_in_progress(out);
+    }
+    handle_signals(OnSignal::stop_safely);
+    ResumableRun resumable(session.monitor, failed_state_file(out), checkpoint);
 
     Before before;
     const auto section =
@@ -214,6 +239,9 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
         resumable.run([&] { return run_test(simulation, config, resumable, &checkpoint); });
     const RunTimes& times = before.times;
     const FieldRecord& field = before.field;
+    clear_earlier_run(out);
+    if (run.packing) drop_other_packing(*run.packing, out);
+    keep_packing(out);
     core::write_file_atomically(out / "config.toml", config_text(run));
     core::write_file_atomically(out / "curve.csv", curve_csv(result.curve));
     core::write_file_atomically(out / "energy.csv", energy_csv(result.energies));

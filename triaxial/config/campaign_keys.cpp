@@ -15,6 +15,9 @@
 namespace grainfield::triaxial {
 namespace {
 
+/// Each is a whole config.
+constexpr std::size_t most_cases = 10'000;
+
 /// Tries one value on a config of its own. Values are tried one by one: whether they fit together
 /// can only be said of a whole case.
 class Trial {
@@ -50,9 +53,16 @@ class Trial {
 
 /// Names stand in a column of results.csv and in the names of files.
 bool is_name(const std::string& name) {
-    return std::ranges::all_of(name, [](unsigned char c) {
-        return std::isalnum(c) != 0 || std::strchr(" ._+=-", c) != nullptr;
-    });
+    constexpr std::size_t longest = 200;  // names of files end at 255
+    return !name.empty() && name.size() <= longest &&
+           std::ranges::all_of(name, [](unsigned char c) {
+               return std::isalnum(c) != 0 || std::strchr(" ._+=-", c) != nullptr;
+           });
+}
+
+std::string shortened_name(const std::string& text) {
+    constexpr std::size_t longest = 60;
+    return text.size() <= longest ? text : text.substr(0, longest) + "...";
 }
 
 /// A value as part of a case's name: 5x0.5x5 for [5, 0.5, 5].
@@ -102,7 +112,7 @@ CaseKeys read_case(const TomlReader& document, const toml::table& one,
     reader.require({"name", text_slot(result.name, "a text"), ""});
     if (!is_name(result.name))
         throw reader.wrong_value("name", *one.get("name"),
-                                 "a name of letters, digits, blanks and . _ + = -");
+                                 "a name of at most 200 letters, digits, blanks and . _ + = -");
     if (!names.insert(result.name).second)
         throw reader.wrong_value("name", *one.get("name"), "a name of its own for every case");
     if (const toml::node* set = reader.take("set")) {
@@ -145,6 +155,11 @@ std::vector<CaseKeys> crossed(const std::vector<CaseKeys>& cases, const SweptKey
 
 }  // namespace
 
+std::string case_file_name(std::string name) {
+    std::ranges::replace(name, ' ', '_');
+    return name;
+}
+
 std::vector<CaseKeys> read_campaign(TomlReader& reader) {
     std::vector<CaseKeys> cases;
     std::vector<SweptKey> sweep;
@@ -153,13 +168,33 @@ std::vector<CaseKeys> read_campaign(TomlReader& reader) {
     if (const toml::node* value = reader.take("montecarlo.case"))
         cases = read_cases(reader, *value);
     if (cases.empty()) cases.push_back({sweep.empty() ? "base" : "", {}});
+    std::size_t count = cases.size();
+    for (const SweptKey& key : sweep)
+        if ((count *= key.values.size()) > most_cases)
+            throw InputError(
+                fmt::format("montecarlo.sweep: its keys and [[montecarlo.case]], crossed, are {} "
+                            "cases or more: "
+                            "at most {} are allowed",
+                            count, most_cases));
     for (const SweptKey& key : sweep) cases = crossed(cases, key);
-    std::set<std::string> names;
-    for (const CaseKeys& one : cases)
+    std::set<std::string> names, files;
+    for (const CaseKeys& one : cases) {
+        if (!is_name(one.name))
+            throw InputError(fmt::format(
+                "montecarlo.sweep: a case would be called {}: at most 200 letters, digits, blanks "
+                "and . _ + = - are allowed; give cases of such values their names in "
+                "[[montecarlo.case]]",
+                toml_string(shortened_name(one.name))));
         if (!names.insert(one.name).second)
             throw InputError(fmt::format(
                 "montecarlo.sweep: two cases are called \"{}\": a value stands there twice",
                 one.name));
+        if (!files.insert(case_file_name(one.name)).second)
+            throw InputError(
+                fmt::format("montecarlo: the case \"{}\" would share its files with another one: "
+                            "names must differ in more than blanks and _",
+                            one.name));
+    }
     return cases;
 }
 

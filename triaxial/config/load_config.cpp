@@ -4,11 +4,14 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "core/files/json_text.hpp"
 #include "triaxial/config/campaign_keys.hpp"
 #include "triaxial/config/config_keys.hpp"
 #include "triaxial/config/toml_reader.hpp"
+#include "triaxial/config/toml_text.hpp"
 
 namespace grainfield::triaxial {
 namespace {
@@ -81,7 +84,14 @@ class ConfigReader {
     std::string located_file(const std::string& name, const toml::node& value) const {
         const bool in_file = !source_.empty() && origin_of(value).starts_with(source_);
         const auto folder = in_file ? std::filesystem::path(source_).parent_path() : "";
-        return std::filesystem::absolute(folder / name).lexically_normal().string();
+        std::string path = std::filesystem::absolute(folder / name).lexically_normal().string();
+        // config.toml and checkpoints name the file, and TOML is UTF-8.
+        if (!core::json_of_bytes(path).is_string())
+            throw InputError(
+                fmt::format("{}: field.data = {}: the name of its folder is not UTF-8; "
+                            "give a file elsewhere",
+                            origin_of(value), toml_string(name)));
+        return path;
     }
 
     toml::table root_;

@@ -36,6 +36,50 @@ bool is_bare_word(std::string_view text) {
            });
 }
 
+/// Throws InputError where brackets or dotted keys are nested deeper than any config: what goes
+/// through a document calls itself level by level. Reads no more of TOML than where texts and
+/// comments end.
+void require_shallow(std::string_view text, const std::string& source) {
+    constexpr int most_levels = 100;
+    int brackets = 0, dots = 0;
+    std::size_t line = 1;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        const char c = text[k];
+        if (c == '"' || c == '\'') {
+            const std::string_view rest = text.substr(k);
+            const bool block = rest.starts_with(std::string(3, c));
+            const std::string_view end = rest.substr(0, block ? 3 : 1);
+            for (k += end.size(); k < text.size() && !text.substr(k).starts_with(end); ++k) {
+                if (c == '"' && text[k] == '\\') ++k;
+                if (k < text.size() && text[k] == '\n') {
+                    ++line;
+                    dots = 0;
+                    if (!block) break;  // not closed: the parser says so
+                }
+            }
+            k += block ? 2 : 0;
+        } else if (c == '#') {
+            k = std::min(text.find('\n', k), text.size()) - 1;
+        } else if (c == '\n') {
+            ++line;
+            dots = 0;
+        } else if (c == '[' || c == '{') {
+            ++brackets;
+        } else if (c == ']' || c == '}') {
+            --brackets;
+        } else if (c == '=' || c == ',') {
+            dots = 0;
+        } else if (c == '.') {
+            ++dots;
+        }
+        if (brackets > most_levels || dots > most_levels)
+            throw InputError(
+                fmt::format("{}:{}: nested deeper than {} levels, the most that are "
+                            "allowed",
+                            source, line, most_levels));
+    }
+}
+
 toml::table parse_override(const std::string& setting, const std::string& source) {
     const auto equals = setting.find('=');
     const std::string key = trimmed(setting.substr(0, equals));
@@ -45,6 +89,7 @@ toml::table parse_override(const std::string& setting, const std::string& source
     if (key.empty() || value.empty() || key.find('#') != std::string::npos ||
         setting.find_first_of("\r\n") != std::string::npos)
         throw InputError(source + ": key.path=value is expected");
+    require_shallow(setting, source);
     try {
         std::ignore = toml::parse(key + " = 0");
     } catch (const toml::parse_error&) {
@@ -88,6 +133,7 @@ void add_leaves(const toml::table& table, const std::string& path, TomlLeaves& f
 }  // namespace
 
 toml::table parse_toml(std::string_view text, const std::string& source) {
+    require_shallow(text, source);
     try {
         return toml::parse(text, source);
     } catch (const toml::parse_error& error) {

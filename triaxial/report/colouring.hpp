@@ -26,7 +26,7 @@ struct Rgb {
 /// of the flip technique, or the diameters where there are none.
 std::vector<ColourBy> colourings(const core::ParticleStore& spheres);
 
-/// The values of one colouring over a sample. Lighter is smaller, darker larger, as in the paper.
+/// The values of one colouring over a sample. Lighter is smaller, darker larger, as in Tran et al.
 class Colouring {
   public:
     Colouring(const core::ParticleStore& spheres, ColourBy by);

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
 #include <sys/wait.h>
@@ -9,9 +10,11 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <stdexcept>
 #include <system_error>
+#include <thread>
 
 #include "core/base/errors.hpp"
 #include "core/files/atomic_file.hpp"
@@ -40,6 +43,30 @@ std::string to_element(std::string svg, std::string_view id, std::string_view ti
     replace_all(svg, "url(#", fmt::format("url(#{}_", id));
     replace_all(svg, "url('#", fmt::format("url('#{}_", id));
     return svg;
+}
+
+/// Status of a child that has ended. One that does not is killed, as it is where a signal asks the
+/// program to stop. Throws FileError and Interrupted then.
+int end_of(pid_t child, std::string_view figure) {
+    using Clock = std::chrono::steady_clock;
+    constexpr auto look_interval = std::chrono::milliseconds(2);
+    constexpr auto patience = std::chrono::minutes(5);  // a figure takes a second at most
+    const auto start = Clock::now();
+    int status = 0;
+    while (true) {
+        const pid_t ended = ::waitpid(child, &status, WNOHANG);
+        if (ended == child) return status;
+        if (ended < 0 && errno != EINTR)
+            throw FileError(fmt::format("gnuplot cannot be waited for: {}", std::strerror(errno)));
+        const bool stop = interrupt_requested();
+        if (stop || Clock::now() - start > patience) {
+            ::kill(child, SIGKILL);
+            ::waitpid(child, &status, 0);
+            if (stop) throw Interrupted("stopped by the user while the figures were drawn");
+            throw FileError(fmt::format("gnuplot did not end on figure '{}': given up", figure));
+        }
+        std::this_thread::sleep_for(look_interval);
+    }
 }
 
 }  // namespace
@@ -85,19 +112,25 @@ std::string Gnuplot::run(std::string_view figure, std::string_view id, std::stri
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log_file.c_str(),
                                      O_WRONLY | O_CREAT | O_TRUNC, 0600);
     posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+    posix_spawnattr_t usual;  // a program that is ignored when it is signalled would go on
+    posix_spawnattr_init(&usual);
+    sigset_t ignored_here;
+    sigemptyset(&ignored_here);
+    for (const int signal : {SIGPIPE, SIGXFSZ}) sigaddset(&ignored_here, signal);
+    posix_spawnattr_setsigdefault(&usual, &ignored_here);
+    posix_spawnattr_setflags(&usual, POSIX_SPAWN_SETSIGDEF);
     pid_t child = 0;
     const int error =
-        posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
+        posix_spawnp(&child, program.c_str(), &actions, &usual, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&usual);
     if (error != 0)
         throw FileError(fmt::format(
             "gnuplot cannot be started ({}); the report's figures need it: install the Debian "
             "package gnuplot-nox",
             std::strerror(error)));
 
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
+    const int status = end_of(child, id);
     const auto output = folder_.path / fmt::format("{}.out", id);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || !std::filesystem::exists(output))
         throw FileError(fmt::format("gnuplot failed on figure '{}': {}", id,

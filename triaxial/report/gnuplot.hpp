@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "triaxial/cli/interrupt.hpp"
 #include "triaxial/report/gnuplot_template.hpp"
 #include "triaxial/report/gnuplot_variables.hpp"
 
@@ -25,7 +26,8 @@ class Gnuplot {
     explicit Gnuplot(std::span<const GnuplotTemplate> more = {});
 
     // Both draw a template with these variables. They throw FileError where gnuplot is not
-    // installed or fails, with what it said, and std::out_of_range where there is no such template.
+    // installed, fails, with what it said, or does not end; Interrupted after a signal; and
+    // std::out_of_range where there is no such template.
     /// An <svg> element to stand in a page: ids carry `id`, `title` is its text for screen readers.
     std::string svg(std::string_view figure, std::string_view id, std::string_view title,
                     PictureSize size, const GnuplotVariables& variables) const;
@@ -37,6 +39,7 @@ class Gnuplot {
     std::string run(std::string_view figure, std::string_view id, std::string_view terminal,
                     const GnuplotVariables& variables) const;
 
+    StopSafely asked_only_;  // before the folder, which is to be removed
     struct Folder {
         Folder();
         ~Folder();

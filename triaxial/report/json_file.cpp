@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/errors.hpp"
+#include "core/files/json_text.hpp"
 #include "core/files/text_file.hpp"
 
 namespace grainfield::triaxial::report {
@@ -12,6 +13,9 @@ using nlohmann::ordered_json;
 
 JsonFile::JsonFile(std::filesystem::path path) : path_(std::move(path)) {
     const std::string text = core::read_whole_file(path_);
+    if (core::nested_too_deep(text))
+        throw FileError(fmt::format("{}: not valid here: JSON nested deeper than {} levels",
+                                    path_.string(), core::most_json_levels));
     try {
         root_ = std::make_shared<const ordered_json>(ordered_json::parse(text));
     } catch (const ordered_json::exception& e) {

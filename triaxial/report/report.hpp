@@ -1,6 +1,6 @@
 #pragma once
-// The report of one triaxial run: a self-contained page with the figures of the paper's Fig. 5 and
-// what is needed to trust them.
+// The report of one triaxial run: a self-contained page with the figures of Fig. 5 of Tran et al.
+// and what is needed to trust them.
 
 #include <filesystem>
 #include <span>

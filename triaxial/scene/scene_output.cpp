@@ -7,6 +7,7 @@
 #include "core/files/folder.hpp"
 #include "core/files/json_text.hpp"
 #include "core/files/sphere_file.hpp"
+#include "triaxial/realization/finished_run.hpp"
 #include "triaxial/scene/contact_table.hpp"
 
 namespace grainfield::triaxial {
@@ -94,6 +95,7 @@ void SceneOutput::add(const core::Simulation& simulation, double time) {
 }
 
 void SceneOutput::finish(const core::Simulation& simulation, const SceneSummary& summary) {
+    clear_earlier_run(folder_);
     trajectory_->commit();
     energy_->commit();
     write_contacts(simulation, folder_ / "contacts.csv");
@@ -119,7 +121,7 @@ fs::path save_state(const core::Simulation& simulation, const fs::path& folder) 
                                 row.shear_force.y(), row.shear_force.z()});
     }
     file.extra = {{"walls_point_normal_velocity", walls}, {"contacts_i_j_shear_force", contacts}};
-    const fs::path path = folder / "state.h5";
+    const fs::path path = failed_state_file(folder);
     core::write_spheres(path, file);
     return path;
 }

@@ -41,8 +41,8 @@ class SceneOutput {
     core::EnergyClosing closing_;
 };
 
-/// Saves spheres, walls and touching contacts as `folder`/state.h5, whatever state they are in, and
-/// returns the file's path. FileError.
+/// Saves spheres, walls and touching contacts in failed_state_file(folder), whatever state they are
+/// in, and returns the file's path. FileError.
 std::filesystem::path save_state(const core::Simulation& simulation,
                                  const std::filesystem::path& folder);
 

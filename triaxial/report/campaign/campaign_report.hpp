@@ -1,5 +1,6 @@
 #pragma once
-// The report of a campaign: one self-contained page with the paper's figures and what they lack.
+// The report of a campaign: one self-contained page with the figures of Tran et al. and what they
+// lack.
 
 #include <filesystem>
 

@@ -24,8 +24,8 @@ DisplayUnit display_unit(const std::optional<randomfield::Property>& property);
 Figure correlation_figure(const Gnuplot& gnuplot, const std::string& id,
                           const randomfield::FieldCheck& check, const Vec3& cell_size);
 
-/// Correlation of two points tau_x = tau_y = tau_z apart (the paper's Fig. 2), for the correlation
-/// lengths of the config and multiples of them.
+/// Correlation of two points tau_x = tau_y = tau_z apart (Fig. 2 of Tran et al.), for the
+/// correlation lengths of the config and multiples of them.
 Figure point_correlation_figure(const Gnuplot& gnuplot,
                                 const randomfield::CorrelationModel& correlation, double longest);
 
@@ -44,7 +44,7 @@ Figure slices_figure(const Gnuplot& gnuplot, const std::string& id,
                      const randomfield::GridSpec& grid, std::span<const double> values,
                      Markup label, const std::string& caption);
 
-/// The blocks from outside, coloured by their property (the paper's Fig. 4).
+/// The blocks from outside, coloured by their property (Fig. 4 of Tran et al.).
 Figure blocks_figure(const Gnuplot& gnuplot, const std::string& id,
                      const randomfield::BlockField& field, randomfield::Property property);
 

@@ -59,7 +59,8 @@ Figure correlation_figure(const Gnuplot& gnuplot, const std::string& id,
 
 Figure point_correlation_figure(const Gnuplot& gnuplot,
                                 const randomfield::CorrelationModel& correlation, double longest) {
-    constexpr std::array multiples{0.01, 0.1, 0.5, 1.0, 10.0};  // the paper's, from theta_y = 1 m
+    constexpr std::array multiples{0.01, 0.1, 0.5, 1.0,
+                                   10.0};  // those of Tran et al., from theta_y = 1 m
     constexpr int points = 240;
     DataBlock rows;
     for (int i = 0; i <= points; ++i) {

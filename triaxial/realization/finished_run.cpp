@@ -1,0 +1,45 @@
+#include "triaxial/realization/finished_run.hpp"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "core/base/errors.hpp"
+
+namespace grainfield::triaxial {
+
+namespace fs = std::filesystem;
+
+fs::path failed_state_file(const fs::path& folder) {
+    return folder / (fs::exists(folder / "summary.json") ? "state.failed.h5" : "state.h5");
+}
+
+fs::path packing_in_progress(const fs::path& folder) {
+    return folder / (fs::exists(folder / "summary.json") ? "packing.part.h5" : "packing.h5");
+}
+
+void drop_packing_in_progress(const fs::path& folder) {
+    std::error_code ignored;
+    for (const char* name : {"packing.part.json", "packing.part.h5"})
+        fs::remove(folder / name, ignored);
+}
+
+void clear_earlier_run(const fs::path& folder) {
+    std::error_code ignored;  // what cannot be removed is written over, or in nobody's way
+    for (const char* name : {"summary.json", "report.html", "state.h5", "state.failed.h5"})
+        fs::remove(folder / name, ignored);
+}
+
+void keep_packing(const fs::path& folder) {
+    for (const char* suffix : {".json", ".h5"}) {
+        const fs::path part = fs::path(folder / "packing.part").concat(suffix);
+        if (!fs::exists(part)) continue;
+        std::error_code error;
+        fs::rename(part, fs::path(folder / "packing").concat(suffix), error);
+        if (error)
+            throw FileError(
+                fmt::format("{}: cannot be renamed: {}", part.string(), error.message()));
+    }
+}
+
+}  // namespace grainfield::triaxial
