@@ -94,21 +94,27 @@ std::optional<double> field_covariance_error(const Config& config) {
 
 namespace {
 
-/// Cells of spheres without blocks are found by place: the grid must be as large as the box, but
-/// for half a cell.
-void check_grid(const randomfield::GridSpec& grid, const Sample& sample) {
+// More than any compression strains a sample [-].
+constexpr double most_grid_strain = 1.0 / 3;
+
+/// Of the grid over the sample along each axis [-]: it strains with the sample, which may have been
+/// compressed since the packing was held against it (config_of_packing()). Throws InputError where
+/// spheres have to be found by place and the grid is another sample's.
+Vec3 grid_stretch(const randomfield::GridSpec& grid, const Sample& sample) {
     const auto& blocks = sample.spheres.block;
-    if (std::find(blocks.begin(), blocks.end(), core::no_block) == blocks.end()) return;
+    const bool by_place = std::find(blocks.begin(), blocks.end(), core::no_block) != blocks.end();
     const Vec3 size = sample.box.size();
+    Vec3 stretch;
     for (int axis = 0; axis < 3; ++axis) {
-        const double cell = grid.cell_size[axis];
-        const double length = grid.cells[static_cast<std::size_t>(axis)] * cell;
-        if (std::abs(length - size[axis]) > 0.5 * cell)
+        const double length = grid.cells[static_cast<std::size_t>(axis)] * grid.cell_size[axis];
+        stretch[axis] = length / size[axis];
+        if (by_place && std::abs(stretch[axis] - 1) > most_grid_strain)
             throw InputError(fmt::format(
                 "packing.blocks = [{}, {}, {}]: the field's grid measures {:g} m along {}, but the "
                 "sample {:.4g} m",
                 grid.cells[0], grid.cells[1], grid.cells[2], length, "xyz"[axis], size[axis]));
     }
+    return stretch;
 }
 
 }  // namespace
@@ -124,12 +130,13 @@ FieldRecord map_field(const Config& config, std::int64_t realization, Sample& sa
     record.gamma = generator.gamma();
 
     core::ParticleStore& s = sample.spheres;
-    check_grid(generator.grid(), sample);
     std::vector<std::size_t> cell(s.size());
+    const Vec3 stretch = grid_stretch(generator.grid(), sample);
     for (std::size_t i = 0; i < s.size(); ++i) {
         const core::BlockIndex& block = s.block[i];
         if (block == core::no_block) {
-            cell[i] = generator.grid().index_at(s.position[i] - sample.box.lower);
+            cell[i] =
+                generator.grid().index_at(stretch.cwiseProduct(s.position[i] - sample.box.lower));
             continue;
         }
         for (std::size_t a = 0; a < 3; ++a)
