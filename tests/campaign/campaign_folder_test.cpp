@@ -78,10 +78,14 @@ TEST_F(Folder, ResultsHaveAColumnForEverySweptKey) {
     folder.append({{row(0, "long cov=0.8"), failed}});
     folder.write_results();
     const std::string text = results();
-    EXPECT_THAT(text, HasSubstr("wall_seconds,state_hash,field.correlation_length,field.method,"
-                                "field.stiffness.cov,packing.spheres\n"));
-    EXPECT_THAT(text, HasSubstr("long cov=0.8,0,0,done,0,10000000,0,0,0,0,,5x0.5x5,las,0.8,100\n"));
-    EXPECT_THAT(text, HasSubstr("paper cov=0.4,1,0,failed,,,,,,0,,10x1x10,cholesky,0.4,\n"));
+    EXPECT_THAT(
+        text,
+        HasSubstr(
+            "wall_seconds,state_hash,failure,end_reason,field.correlation_length,field.method,"
+            "field.stiffness.cov,packing.spheres\n"));
+    EXPECT_THAT(text,
+                HasSubstr("long cov=0.8,0,0,done,0,10000000,0,0,0,0,,,,5x0.5x5,las,0.8,100\n"));
+    EXPECT_THAT(text, HasSubstr("paper cov=0.4,1,0,failed,,,,,,0,,,,10x1x10,cholesky,0.4,\n"));
     EXPECT_THAT(core::read_whole_file(folder_ / "out" / "deterministic.csv"),
                 testing::EndsWith("field.stiffness.cov,packing.spheres\n"));
 }

@@ -19,7 +19,8 @@ using ::testing::HasSubstr;
 Row some_row(std::int64_t k) {
     return {"cov=0.8", k,       0xffffffffffffffff,           false,
             1e5 / 3,   2e7 / 7, 0.1 * static_cast<double>(k), 0.01,
-            5000 + k,  1.25,    "0123456789abcdef",           ""};
+            5000 + k,  1.25,    "0123456789abcdef",           "peak",
+            "asked",   ""};
 }
 
 class JournalTest : public ConfigTest {
@@ -102,15 +103,29 @@ TEST_F(JournalTest, AFullDiskIsSaidAndLosesNoFinishedRow) {
     EXPECT_THROW(Journal(folder_ / "no" / "rows.journal"), FileError);
 }
 
+/// Journals of versions that did not say how a test ended.
+TEST(Rows, OfEarlierVersionsAreRead) {
+    std::string line = row_line(some_row(3));
+    for (const std::string key : {"\"failure\":\"peak\",", "\"end_reason\":\"asked\","}) {
+        ASSERT_NE(line.find(key), std::string::npos) << line;
+        line.erase(line.find(key), key.size());
+    }
+    Row row;
+    ASSERT_TRUE(parse_row(line, row));
+    Row expected = some_row(3);
+    expected.failure = expected.end_reason = "";
+    EXPECT_EQ(row, expected);
+}
+
 TEST(Rows, StandInTheTableOfTheContract) {
     std::vector<Row> rows{some_row(2), some_row(10)};
     rows[1].failed = true;
     EXPECT_EQ(rows_csv(rows),
               "case,realization,seed,status,peak_deviator_stress_Pa,E50_Pa,friction_angle_rad,"
-              "axial_strain_at_peak,steps,wall_seconds,state_hash\n"
+              "axial_strain_at_peak,steps,wall_seconds,state_hash,failure,end_reason\n"
               "cov=0.8,2,18446744073709551615,done,33333.333333333336,2857142.8571428573,0.2,0.01,"
-              "5002,1.25,0123456789abcdef\n"
-              "cov=0.8,10,18446744073709551615,failed,,,,,,1.25,\n");
+              "5002,1.25,0123456789abcdef,peak,asked\n"
+              "cov=0.8,10,18446744073709551615,failed,,,,,,1.25,,,\n");
     EXPECT_TRUE(row_before(rows[0], rows[1]));
 }
 

@@ -22,6 +22,7 @@ namespace {
 using fixture::read_file;
 using fixture::write_file;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr const char* config = R"(
 field.variable = "stiffness"
@@ -81,6 +82,43 @@ TEST_F(CampaignReport, HasEveryFigureAndTable) {
     // Nothing from outside.
     for (const char* outside : {"src=\"http", "href=\"http", "@import", "<script", "<link"})
         EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+}
+
+/// Replaces every `from` of a text, or the first `most`.
+std::string replaced(std::string text, const std::string& from, const std::string& to,
+                     std::size_t most = std::string::npos) {
+    for (std::size_t at = 0; most > 0 && (at = text.find(from, at)) != std::string::npos; --most) {
+        text.replace(at, from.size(), to);
+        at += to.size();
+    }
+    return text;
+}
+
+// The rows of these campaigns took 2 s and say nothing of their state and end.
+constexpr const char* says_nothing = ",2,,,,";
+
+TEST_F(CampaignReport, CountsRunsWithoutAPeak) {
+    const auto dir = campaign(4);
+    EXPECT_THAT(read_file(write_campaign_report(dir)), Not(HasSubstr("No peak was found")));
+    const std::string table = read_file(dir / "results.csv");
+    write_file(dir / "results.csv", replaced(table, says_nothing, ",2,,strain-limit,asked,", 3));
+    const std::string page = read_file(write_campaign_report(dir));
+    EXPECT_THAT(page, HasSubstr("No peak was found in 3 of 12 runs"));
+    EXPECT_THAT(page, HasSubstr("<th scope=\"col\">no peak</th>"));
+}
+
+/// Tables of earlier versions do not say how a test ended.
+TEST_F(CampaignReport, ReadsTablesOfEarlierVersions) {
+    const auto dir = campaign(4);
+    const std::string page = read_file(write_campaign_report(dir));
+    for (const char* name : {"results.csv", "deterministic.csv"}) {
+        const std::string table = read_file(dir / name);
+        const std::string earlier =
+            replaced(replaced(table, ",failure,end_reason", ""), says_nothing, ",2,,");
+        EXPECT_LT(earlier.size() + 2 * 3, table.size());
+        write_file(dir / name, earlier);
+    }
+    EXPECT_EQ(read_file(write_campaign_report(dir)), page);
 }
 
 TEST_F(CampaignReport, StatisticsAreThoseOfTheRows) {

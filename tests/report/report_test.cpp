@@ -179,11 +179,51 @@ TEST(Report, DoesWithoutAPacking) {
 TEST(Report, SaysWhenNoPeakWasFound) {
     const TestFolder folder;
     auto summary = fixture::write_run(folder.path(), {});
+    summary.erase("failure");  // as earlier versions wrote it
     summary["peak_found"] = false;
     fixture::write_file(folder.path() / "summary.json", summary.dump());
     const std::string page = fixture::read_file(write_report(folder.path()));
-    EXPECT_THAT(page, AllOf(HasSubstr("No peak was found"), HasSubstr("still hardens"),
-                            Not(HasSubstr(">Peak deviator stress"))));
+    EXPECT_THAT(page, AllOf(HasSubstr("No peak was found"), HasSubstr("shows no peak before"),
+                            Not(HasSubstr(">Peak deviator stress")), Not(HasSubstr("peaks at"))));
+}
+
+TEST(Report, SaysWhatTheLargestStressIsAndWhyTheRunEnded) {
+    const TestFolder folder;
+    auto summary = fixture::write_run(folder.path(), {});
+    const auto page_of = [&](const char* failure, const char* end_reason) {
+        summary["failure"] = failure;
+        summary["end_reason"] = end_reason;
+        fixture::write_file(folder.path() / "summary.json", summary.dump());
+        return fixture::read_file(write_report(folder.path()));
+    };
+    EXPECT_THAT(page_of("peak", "peak"),
+                AllOf(HasSubstr("the sample peaks at"), HasSubstr(">Peak deviator stress"),
+                      HasSubstr("stayed more than 10 % below its peak"),
+                      Not(HasSubstr("No peak was found"))));
+    EXPECT_THAT(page_of("plateau", "plateau"),
+                AllOf(HasSubstr("the sample levels off at"), HasSubstr("of the plateau"),
+                      HasSubstr("had levelled off"), Not(HasSubstr("peaks at")),
+                      Not(HasSubstr(">Peak deviator stress")), Not(HasSubstr("No peak"))));
+    EXPECT_THAT(page_of("strain-limit", "asked"),
+                AllOf(HasSubstr("shows no peak before"), HasSubstr(">Largest deviator stress"),
+                      HasSubstr("the axial strain asked for was reached"),
+                      HasSubstr("No peak was found"), Not(HasSubstr("peaks at"))));
+    summary["failure"] = "collapse";
+    fixture::write_file(folder.path() / "summary.json", summary.dump());
+    EXPECT_THAT(message_of<FileError>(folder.path()),
+                AllOf(HasSubstr("summary.json"), HasSubstr("'failure'"), HasSubstr("collapse")));
+}
+
+TEST(Report, GivesTheSmoothedModulusWhereItDiffers) {
+    const TestFolder folder;
+    auto summary = fixture::write_run(folder.path(), {});
+    const auto page_of = [&](double ratio) {
+        summary["smoothed_E50_Pa"] = ratio * summary["E50_Pa"].get<double>();
+        fixture::write_file(folder.path() / "summary.json", summary.dump());
+        return fixture::read_file(write_report(folder.path()));
+    };
+    EXPECT_THAT(page_of(1.019), Not(HasSubstr("from the smoothed curve")));
+    EXPECT_THAT(page_of(1.021), HasSubstr("from the smoothed curve"));
 }
 
 TEST(Report, SaysInWordsWhatTheCaseIsAndHowQuasiStatic) {

@@ -1,14 +1,13 @@
-// What is read off a stress-strain curve, and when a test may end.
+// What is read off a stress-strain curve.
 #include "triaxial/realization/curve.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/errors.hpp"
-#include "core/base/random.hpp"
 
 namespace grainfield::triaxial {
 namespace {
@@ -66,14 +65,6 @@ TEST(Curve, NoPositiveStressIsAnError) {
     EXPECT_THROW(evaluate_curve({point(0, 0), point(1e-4, -3)}, 100e3), SimulationError);
 }
 
-/// Strain at which the watch ends the test, and its reason.
-std::pair<double, std::string> ended(const std::vector<CurvePoint>& curve) {
-    PeakWatch watch(100e3);
-    for (const CurvePoint& p : curve)
-        if (watch.past_peak(p)) return {p.axial_strain, watch.reason()};
-    return {-1, ""};
-}
-
 TEST(Curve, PeakBeforeAnyStrainIsAnError) {
     std::vector<CurvePoint> curve(2);
     curve[0].deviator_stress = 0.09;
@@ -82,60 +73,53 @@ TEST(Curve, PeakBeforeAnyStrainIsAnError) {
     EXPECT_THROW(evaluate_curve(curve, 4e5), SimulationError);
 }
 
-TEST(PeakWatch, FallOfFivePercent) {
-    // 2 s/(1 + s^2) = 0.95 at s = (1 + sqrt(1 - 0.95^2))/0.95.
-    const double s = (1 + std::sqrt(1 - 0.95 * 0.95)) / 0.95;
-    const auto [strain, reason] = ended(smooth_curve(180e3, 0.01, 5e-5, 0.03));
-    EXPECT_NEAR(strain, 0.01 * s, 5e-5);
-    EXPECT_NE(reason.find("5 %"), std::string::npos) << reason;
-}
-
-TEST(PeakWatch, NoNewPeakForOnePercentOfStrain) {
-    std::vector<CurvePoint> curve;
-    for (int k = 0; k <= 1000; ++k) {  // up to 200 at 2 %, then down by 2 % in 4 % of strain
-        const double strain = k * 1e-4;
-        curve.push_back(point(strain, strain <= 0.02 ? 1e4 * strain : 200 - 100 * (strain - 0.02)));
+/// Straight lines from (0, 0) through the corners, recorded every 5e-5 of strain.
+std::vector<CurvePoint> straight_lines(const std::vector<std::pair<double, double>>& corners) {
+    std::vector<CurvePoint> curve{point(0, 0)};
+    double strain0 = 0, q0 = 0;
+    for (const auto& [strain1, q1] : corners) {
+        const int points = static_cast<int>(std::lround((strain1 - strain0) / 5e-5));
+        for (int k = 1; k <= points; ++k)
+            curve.push_back(
+                point(strain0 + (strain1 - strain0) * k / points, q0 + (q1 - q0) * k / points));
+        strain0 = strain1;
+        q0 = q1;
     }
-    const auto [strain, reason] = ended(curve);
-    EXPECT_NEAR(strain, 0.03, 1.5e-4);
-    EXPECT_NE(reason.find("no new peak"), std::string::npos) << reason;
+    return curve;
 }
 
-TEST(PeakWatch, TenPercentWhereStressKeepsGrowing) {
-    std::vector<CurvePoint> curve;
-    for (int k = 0; k <= 1200; ++k) curve.push_back(point(k * 1e-4, 100.0 * k));
-    const auto [strain, reason] = ended(curve);
-    EXPECT_NEAR(strain, 0.1, 1e-6);
-    EXPECT_NE(reason.find("10 %"), std::string::npos) << reason;
+/// Half the peak is passed three times; the last rise before the peak counts.
+TEST(Curve, ModulusIsThatOfTheLastRiseThroughHalfThePeak) {
+    const auto curve = straight_lines({{0.01, 70}, {0.03, 40}, {0.06, 40}, {0.1, 120}, {0.12, 90}});
+    const CurveResults r = evaluate_curve(curve, 100);
+    EXPECT_EQ(r.peak_deviator_stress, 120);
+    EXPECT_NEAR(r.E50, 60 / 0.07, 1e-6);  // 60 / 0.0086 at the first rise
+    EXPECT_NEAR(r.smoothed_E50, 60 / 0.07, 1e-6);
+    EXPECT_FALSE(moduli_differ(r.E50, r.smoothed_E50));
 }
 
-TEST(PeakWatch, NoiseEndsATestNeitherEarlyNorNever) {
-    // 1 % of the peak, as a single realization's chaos is, uniform about the smooth curve.
-    const core::RandomStream random(1, core::Stream::perturbation);
-    for (std::uint64_t k = 0; k < 20; ++k) {
-        std::vector<CurvePoint> curve = smooth_curve(180e3, 0.015, 5e-5, 0.1);
-        for (std::size_t i = 1; i < curve.size(); ++i)
-            curve[i].deviator_stress += 180e3 * 0.02 * (random.uniform(k, i) - 0.5);
-        const auto [strain, reason] = ended(curve);
-        EXPECT_GT(strain, 0.015) << k;
-        EXPECT_LT(strain, 0.03) << k << reason;
-    }
+/// A single point that jumps over half the peak is no loading: the modulus stays by the curve.
+TEST(Curve, ModulusIsNotThatOfASpike) {
+    auto curve = straight_lines({{0.01, 100}, {0.02, 60}});
+    curve[40].deviator_stress = 70;  // at 0.2 %, where the curve has 20
+    const CurveResults r = evaluate_curve(curve, 100);
+    EXPECT_NEAR(r.E50, 50 / 0.005, 1e-6);
+    EXPECT_NEAR(r.smoothed_E50, 50 / 0.005, 0.01 * 50 / 0.005);
 }
 
-TEST(PeakWatch, NegativeStartIsNoPeak) {
-    PeakWatch watch(100e3);
-    EXPECT_FALSE(watch.past_peak(point(0, -1e3)));
-    EXPECT_FALSE(watch.past_peak(point(5e-5, -2e3)));
-    EXPECT_FALSE(watch.past_peak(point(1e-4, 5e3)));
-    EXPECT_EQ(watch.peak(), 5e3);
+TEST(Curve, ModuliAreBothGivenWhereTheyDifferByTwoPercent) {
+    EXPECT_FALSE(moduli_differ(100, 101.9));
+    EXPECT_TRUE(moduli_differ(100, 102.1));
+    EXPECT_TRUE(moduli_differ(102.1, 100));
 }
 
-/// Noise in the first points, where q is a small part of what it becomes, ends no test.
-TEST(PeakWatch, NoiseAtTheStartDoesNotEndATest) {
-    PeakWatch watch(100e3);
-    EXPECT_FALSE(watch.past_peak(point(0, 40)));
-    EXPECT_FALSE(watch.past_peak(point(5e-5, 20))) << watch.reason();
-    EXPECT_FALSE(watch.past_peak(point(1e-4, 2e3)));
+TEST(Curve, SmoothedPeakLiesBelowTheRecordedOneByTheNoise) {
+    auto curve = smooth_curve(180e3, 0.01, 5e-5, 0.03);
+    EXPECT_NEAR(evaluate_curve(curve, 100e3).smoothed_deviator_stress, 180e3, 0.005 * 180e3);
+    curve[200].deviator_stress = 200e3;
+    const CurveResults r = evaluate_curve(curve, 100e3);
+    EXPECT_EQ(r.peak_deviator_stress, 200e3);
+    EXPECT_NEAR(r.smoothed_deviator_stress, 180e3, 0.005 * 180e3);
 }
 
 }  // namespace

@@ -24,11 +24,27 @@ TEST(RunFiles, SummaryCurveAndStateOfATest) {
     const TestResult& r = run.result;
     const nlohmann::json summary =
         run_summary(r, field, config, run.simulation, {.packing = 1, .field = 0.5}, 2);
-    for (const char* key :
-         {"particles", "contacts", "porosity", "confining_stress_Pa", "peak_deviator_stress_Pa",
-          "axial_strain_at_peak", "E50_Pa", "friction_angle_rad", "steps", "time_step_s",
-          "wall_seconds", "particle_steps_per_second", "state_hash", "isa", "precision", "threads",
-          "version"})
+    for (const char* key : {"particles",
+                            "contacts",
+                            "porosity",
+                            "confining_stress_Pa",
+                            "peak_deviator_stress_Pa",
+                            "axial_strain_at_peak",
+                            "E50_Pa",
+                            "friction_angle_rad",
+                            "steps",
+                            "time_step_s",
+                            "wall_seconds",
+                            "particle_steps_per_second",
+                            "state_hash",
+                            "isa",
+                            "precision",
+                            "threads",
+                            "version",
+                            "failure",
+                            "end_reason",
+                            "smoothed_peak_deviator_stress_Pa",
+                            "smoothed_E50_Pa"})
         EXPECT_TRUE(summary.contains(key)) << key;
     EXPECT_EQ(summary["case"], "friction");
     EXPECT_EQ(summary["particles"], 200);
@@ -41,6 +57,9 @@ TEST(RunFiles, SummaryCurveAndStateOfATest) {
     EXPECT_EQ(summary["state_hash"], run.simulation.state_hash());
     EXPECT_EQ(summary["field"]["realization"], 2);
     EXPECT_FALSE(summary["peak_found"]);  // sheared a little only: q still grows
+    EXPECT_EQ(summary["failure"], "strain-limit");
+    EXPECT_EQ(summary["end_reason"], "asked");
+    EXPECT_EQ(summary["smoothed_E50_Pa"], r.results.smoothed_E50);
     double stages = 0;
     for (const auto& [stage, seconds] : summary["wall_seconds"].items()) {
         EXPECT_GE(seconds.get<double>(), 0) << stage;

@@ -59,6 +59,7 @@ void expect_consistent(const FinishedTest& run, const Config& config) {
 TEST(Shear, HoldsTheConfiningStressAndStiffensWithIt) {
     const Sample sample = dense_sample(spheres);
     Config config = small_config(sample);
+    config.triaxial.max_axial_strain = 0.015;  // before a sample so small softens
     double peak[2], modulus[2], ratio[2];
     for (int k = 0; k < 2; ++k) {
         config.triaxial.confining_stress = 100e3 * (k + 1);
@@ -66,7 +67,7 @@ TEST(Shear, HoldsTheConfiningStressAndStiffensWithIt) {
         const FinishedTest run = testing::run(sample, config);
         expect_held(run.result);
         expect_consistent(run, config);
-        EXPECT_FALSE(run.result.end_reason.empty());
+        EXPECT_EQ(run.result.end_reason, ended_as_asked);
         EXPECT_EQ(run.result.inertia_ratio, 1);
         // Only the walls' box is known at the end: the last point is at most one step older.
         const double shrunk = 1 - run.simulation.spheres().solid_volume() /
@@ -88,6 +89,21 @@ TEST(Shear, HoldsTheConfiningStressAndStiffensWithIt) {
     EXPECT_GT(modulus[1], modulus[0]);
     // Without cohesion the strength is proportional to the stress; the rate's share falls.
     EXPECT_NEAR(ratio[1] / ratio[0], 1, 0.15);
+}
+
+TEST(Shear, EndsByItselfOnceTheSampleHasFailed) {
+    const Sample sample = dense_sample(spheres);
+    const FinishedTest run = testing::run(sample, small_config(sample));
+    const TestResult& r = run.result;
+    EXPECT_EQ(r.end_reason, "peak");
+    EXPECT_EQ(r.results.failure, Failure::peak);
+    EXPECT_LT(r.lateral_rms_error, 0.005);
+    // A peak at some 2.4 %, and softening over half of that; small samples fluctuate meanwhile.
+    EXPECT_GT(r.curve.back().axial_strain, 1.5 * r.results.axial_strain_at_peak);
+    EXPECT_LT(r.curve.back().axial_strain, 0.1);
+    EXPECT_EQ(reached_failure(r.curve, {.spheres = sample.spheres.size(),
+                                        .transient_strain = r.inertial_number}),
+              Failure::peak);
 }
 
 TEST(Shear, HoldsTheConfiningStressAtAnyStiffnessContrast) {

@@ -15,17 +15,17 @@ bool row_before(const Row& a, const Row& b) {
 std::string rows_csv(std::span<const Row> rows, const SweptColumns& swept) {
     std::string text =
         "case,realization,seed,status,peak_deviator_stress_Pa,E50_Pa,friction_angle_rad,"
-        "axial_strain_at_peak,steps,wall_seconds,state_hash";
+        "axial_strain_at_peak,steps,wall_seconds,state_hash,failure,end_reason";
     for (const std::string& key : swept.keys) text += "," + key;
     text += '\n';
     for (const Row& r : rows) {
         fmt::format_to(std::back_inserter(text), "{},{},{},", r.case_name, r.realization, r.seed);
         if (r.failed)
-            fmt::format_to(std::back_inserter(text), "failed,,,,,,{},", r.wall_seconds);
+            fmt::format_to(std::back_inserter(text), "failed,,,,,,{},,,", r.wall_seconds);
         else
-            fmt::format_to(std::back_inserter(text), "done,{},{},{},{},{},{},{}",
+            fmt::format_to(std::back_inserter(text), "done,{},{},{},{},{},{},{},{},{}",
                            r.peak_deviator_stress, r.E50, r.friction_angle, r.axial_strain_at_peak,
-                           r.steps, r.wall_seconds, r.state_hash);
+                           r.steps, r.wall_seconds, r.state_hash, r.failure, r.end_reason);
         if (!swept.keys.empty())
             for (const std::string& value : swept.values.at(r.case_name)) text += "," + value;
         text += '\n';
@@ -45,6 +45,8 @@ std::string row_line(const Row& r) {
                               {"steps", r.steps},
                               {"wall_seconds", r.wall_seconds},
                               {"state_hash", r.state_hash},
+                              {"failure", r.failure},
+                              {"end_reason", r.end_reason},
                               {"reason", r.reason}};
     return core::json_text(json);
 }
@@ -65,6 +67,8 @@ bool parse_row(std::string_view line, Row& row) {
         json.at("steps").get_to(row.steps);
         json.at("wall_seconds").get_to(row.wall_seconds);
         json.at("state_hash").get_to(row.state_hash);
+        row.failure = json.value("failure", "");  // journals of earlier versions lack them
+        row.end_reason = json.value("end_reason", "");
         json.at("reason").get_to(row.reason);
     } catch (const nlohmann::json::exception&) {
         return false;

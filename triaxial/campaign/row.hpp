@@ -25,7 +25,9 @@ struct Row {
     std::int64_t steps = 0;           ///< [-]
     double wall_seconds = 0;          ///< [s]
     std::string state_hash;
-    std::string reason;  ///< why it failed
+    std::string failure;     ///< "peak", "plateau" or "strain-limit"; empty in older tables
+    std::string end_reason;  ///< of that, or "asked"
+    std::string reason;      ///< why it failed
 
     bool operator==(const Row&) const = default;
 };

@@ -6,6 +6,7 @@
 #include "core/base/errors.hpp"
 #include "core/files/folder.hpp"
 #include "core/kernel_choice.hpp"
+#include "triaxial/realization/failure.hpp"
 #include "triaxial/realization/run_files.hpp"
 #include "triaxial/realization/sample.hpp"
 
@@ -63,6 +64,8 @@ Row run_job(const Job& job, const Starts& starts, const std::filesystem::path& f
         row.axial_strain_at_peak = result.results.axial_strain_at_peak;
         row.steps = result.isotropic_steps + result.shear_steps;
         row.state_hash = simulation.state_hash();
+        row.failure = failure_name(result.results.failure);
+        row.end_reason = result.end_reason;
     } catch (const SimulationError& error) {
         row.failed = true;
         row.reason = error.what();

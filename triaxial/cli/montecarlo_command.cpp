@@ -14,6 +14,7 @@
 #include "triaxial/campaign/progress.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/print_row.hpp"
+#include "triaxial/realization/failure.hpp"
 #include "triaxial/realization/given_packing.hpp"
 #include "triaxial/realization/sample.hpp"
 
@@ -45,12 +46,13 @@ Shard parse_shard(const std::string& text) {
 /// A line a case: how many rows, and the means.
 void print_cases(const std::vector<CampaignCase>& cases, const std::map<RowPlace, Row>& rows) {
     for (std::size_t c = 0; c < cases.size(); ++c) {
-        std::size_t failed = 0;
+        std::size_t failed = 0, without_peak = 0;
         std::vector<double> peak, E50;
         for (auto at = rows.lower_bound({c, 0}); at != rows.end() && at->first.case_index == c;
              ++at) {
             failed += at->second.failed ? 1u : 0u;
             if (at->second.failed) continue;
+            without_peak += at->second.failure == failure_name(Failure::strain_limit) ? 1u : 0u;
             peak.push_back(at->second.peak_deviator_stress / 1e3);
             E50.push_back(at->second.E50 / 1e6);
         }
@@ -59,6 +61,7 @@ void print_cases(const std::vector<CampaignCase>& cases, const std::map<RowPlace
         if (!E50.empty())
             text +=
                 fmt::format("; means: peak {} kPa, E50 {} MPa", mean_text(peak), mean_text(E50));
+        if (without_peak > 0) text += fmt::format("; {} without a peak", without_peak);
         print_row(cases[c].name, text);
     }
 }

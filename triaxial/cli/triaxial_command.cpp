@@ -60,6 +60,23 @@ Sample sample_from_nothing(const Config& config, const fs::path& out, core::Moni
     return {std::move(packed.spheres), packed.box};
 }
 
+/// Largest deviator stress, called what it is, and E50.
+void print_strength(const CurveResults& r) {
+    const std::string stress =
+        fmt::format("{:.2f} kPa at {:.3f} % axial strain", r.peak_deviator_stress / 1e3,
+                    100 * r.axial_strain_at_peak);
+    if (r.failure == Failure::peak)
+        print_row("peak deviator stress", stress);
+    else if (r.failure == Failure::plateau)
+        print_row("deviator stress", stress + ", a plateau");
+    else
+        print_row("largest deviator stress", stress + ", no peak before the end");
+    std::string modulus = fmt::format("{:.2f} MPa", r.E50 / 1e6);
+    if (moduli_differ(r.E50, r.smoothed_E50))
+        modulus += fmt::format(", {:.2f} MPa from the smoothed curve", r.smoothed_E50 / 1e6);
+    print_row("E50", modulus);
+}
+
 void print_test(const TestResult& r, const Config& config, const FieldRecord& field) {
     const double degrees = 180 / std::numbers::pi;
     print_row("confining stress",
@@ -71,16 +88,13 @@ void print_test(const TestResult& r, const Config& config, const FieldRecord& fi
     if (field.variable != randomfield::Variable::none)
         print_row("random field",
                   fmt::format("realization {}, gamma {:.4f}", field.realization, field.gamma));
-    print_row("peak deviator stress", fmt::format("{:.2f} kPa at {:.3f} % axial strain",
-                                                  r.results.peak_deviator_stress / 1e3,
-                                                  100 * r.results.axial_strain_at_peak));
-    print_row("E50", fmt::format("{:.2f} MPa", r.results.E50 / 1e6));
+    print_strength(r.results);
     print_row("friction angle", fmt::format("{:.4f} rad = {:.2f} degrees", r.results.friction_angle,
                                             r.results.friction_angle * degrees));
     print_row("inertial number", fmt::format("{:.2e}", r.inertial_number));
     print_row("steps", fmt::format("{} isotropic, {} shear, {:.2f} us each", r.isotropic_steps,
                                    r.shear_steps, 1e6 * r.mean_step));
-    print_row("ended because", r.end_reason);
+    print_row("ended because", end_in_words(r.end_reason));
     const core::Energy& energy = r.energies.back().energy;
     print_row("energy",
               fmt::format("{:.4g} J put in, {:.4g} J net, {:.4g} J friction, {:.4g} J damping; the "

@@ -75,8 +75,10 @@ nlohmann::json run_summary(const TestResult& r, const FieldRecord& field, const 
         {"axial_strain_at_peak", r.results.axial_strain_at_peak},
         {"E50_Pa", r.results.E50},
         {"friction_angle_rad", r.results.friction_angle},
-        {"peak_found", !config.triaxial.max_axial_strain ||
-                           r.results.axial_strain_at_peak < r.curve.back().axial_strain},
+        {"smoothed_peak_deviator_stress_Pa", r.results.smoothed_deviator_stress},
+        {"smoothed_E50_Pa", r.results.smoothed_E50},
+        {"failure", failure_name(r.results.failure)},
+        {"peak_found", r.results.failure == Failure::peak},
         {"end_reason", r.end_reason},
         {"lateral_stress_rms_error", r.lateral_rms_error},
         {"lateral_stress_max_error", r.lateral_max_error},

@@ -13,12 +13,13 @@
 namespace grainfield::triaxial {
 namespace {
 
-constexpr std::size_t top_wall = 3;          // y high, in the order of box_walls()
-constexpr double recording_interval = 5e-5;  // of axial strain [-]
-constexpr double servo_speed_share = 5.0;    // cap of the side walls over the axial rate [-]
-constexpr double settled_strain = 1e-3;      // from here the largest servo error counts [-]
-constexpr double servo_lost = 0.5;           // error of a lateral stress that ends a test ... [-]
-constexpr int servo_patience = 150;          // ... after so many steps in a row
+constexpr std::size_t top_wall = 3;                // y high, in the order of box_walls()
+constexpr double recording_interval = 5e-5;        // of axial strain [-]
+constexpr std::size_t points_judged_at_once = 10;  // new ones, before an end is looked for
+constexpr double servo_speed_share = 5.0;          // cap of the side walls over the axial rate [-]
+constexpr double settled_strain = 1e-3;            // from here the largest servo error counts [-]
+constexpr double servo_lost = 0.5;   // error of a lateral stress that ends a test ... [-]
+constexpr int servo_patience = 150;  // ... after so many steps in a row
 
 /// Poisson's ratio of a random packing whose spheres move with the mean strain:
 /// (1 - lambda)/(4 + lambda). Only the start of the test uses it.
@@ -28,11 +29,12 @@ double affine_poisson_ratio(double lambda) {
 
 }  // namespace
 
-ShearStage::ShearStage(core::Driver& driver, const TriaxialOptions& options)
+ShearStage::ShearStage(core::Driver& driver, const TriaxialOptions& options,
+                       const FailureRule& rule)
     : driver_(driver),
       options_(options),
       start_size_(core::box_dimensions(driver.simulation())),
-      peak_(options.confining_stress) {
+      rule_(rule) {
     for (std::size_t wall : {0u, 1u, 4u, 5u})
         servos_.emplace_back(wall, core::WallServo::Options{
                                        .stress = options.confining_stress,
@@ -115,21 +117,29 @@ bool ShearStage::record() {
     stress_sum_.setZero();
     stress_count_ = 0;
 
-    const bool past = peak_.past_peak(point);
+    highest_ = std::max(highest_, point.deviator_stress);
+    return may_end();
+}
+
+/// Whether the curve may end with its last point; sets end_reason_.
+bool ShearStage::may_end() {
     if (options_.max_axial_strain) {
-        if (point.axial_strain < *options_.max_axial_strain) return false;
-        end_reason_ =
-            fmt::format("{:g} % of axial strain, as asked for", 100 * *options_.max_axial_strain);
+        if (curve_.back().axial_strain < *options_.max_axial_strain) return false;
+        end_reason_ = ended_as_asked;
         return true;
     }
-    if (past) end_reason_ = peak_.reason();
-    return past;
+    if (curve_.size() % points_judged_at_once != 0 &&
+        curve_.back().axial_strain < failure_strain_limit)
+        return false;
+    const std::optional<Failure> failure = reached_failure(curve_, rule_);
+    if (failure) end_reason_ = failure_name(*failure);
+    return failure.has_value();
 }
 
 template <class Archive>
 void ShearStage::archive_state(Archive& archive) {
     using core::bytes;
-    archive(bytes(start_size_), bytes(curve_), peak_, steps_, time_, bytes(stress_sum_),
+    archive(bytes(start_size_), bytes(curve_), highest_, steps_, time_, bytes(stress_sum_),
             stress_count_, next_strain_, square_error_sum_, max_error_, steps_off_);
     for (core::WallServo& servo : servos_) archive(servo);
 }
@@ -154,10 +164,10 @@ void ShearStage::run() {
             const CurvePoint& last = curve_.back();
             const double done =
                 options_.max_axial_strain ? last.axial_strain / *options_.max_axial_strain : -1;
-            driver_.monitor().progress(done, steps_,
-                                       fmt::format("strain {:.3f} %, q {:.1f} kPa, peak {:.1f} kPa",
-                                                   100 * last.axial_strain,
-                                                   last.deviator_stress / 1e3, peak_.peak() / 1e3));
+            driver_.monitor().progress(
+                done, steps_,
+                fmt::format("strain {:.3f} %, q {:.1f} kPa, peak {:.1f} kPa",
+                            100 * last.axial_strain, last.deviator_stress / 1e3, highest_ / 1e3));
         }
     }
     driver_.simulation().compute_forces(true);

@@ -8,7 +8,7 @@
 #include "core/drive/driver.hpp"
 #include "core/drive/servo.hpp"
 #include "triaxial/config/config.hpp"
-#include "triaxial/realization/curve.hpp"
+#include "triaxial/realization/failure.hpp"
 
 namespace grainfield::triaxial {
 
@@ -16,12 +16,13 @@ class ShearStage {
   public:
     /// The simulation must be at rest under the isotropic stress, its first six walls those of
     /// core::box_walls().
-    ShearStage(core::Driver& driver, const TriaxialOptions& options);
+    ShearStage(core::Driver& driver, const TriaxialOptions& options, const FailureRule& rule = {});
 
-    /// Shears until max_axial_strain, or until the peak is surely past.
+    /// Shears until max_axial_strain, or until the sample has surely failed.
     void run();
 
     const std::vector<CurvePoint>& curve() const { return curve_; }
+    /// The name of what reached_failure() found, or ended_as_asked.
     const std::string& end_reason() const { return end_reason_; }
     std::int64_t steps() const { return steps_; }            ///< [-]
     double time() const { return time_; }                    ///< [s]
@@ -35,6 +36,7 @@ class ShearStage {
     void steer(double step);
     void watch_servos(double error);
     bool record();
+    bool may_end();
     double axial_strain() const;
 
     core::Driver& driver_;
@@ -42,7 +44,8 @@ class ShearStage {
     Vec3 start_size_;
     std::vector<core::WallServo> servos_;
     std::vector<CurvePoint> curve_;
-    PeakWatch peak_;
+    FailureRule rule_;
+    double highest_ = 0;  // deviator stress so far, for the progress line
     std::string end_reason_;
     std::int64_t steps_ = 0;
     double time_ = 0;

@@ -84,7 +84,12 @@ void compress(TestResult& result, core::Driver& driver, const Config& config, do
 
 void shear(TestResult& result, core::Driver& driver, const Config& config) {
     driver.monitor().begin("shear");
-    ShearStage shear(driver, config.triaxial);
+    const core::ParticleStore& spheres = driver.simulation().spheres();
+    const double inertial = inertial_number(spheres, config);
+    // I is the axial strain within d sqrt(rho/sigma_3), the time in which a sphere under the
+    // confining stress moves by its size: no sample has failed before.
+    const FailureRule rule{.spheres = spheres.size(), .transient_strain = inertial};
+    ShearStage shear(driver, config.triaxial, rule);
     shear.run();
     if (driver.simulation().keeps_ledger()) driver.log_energy();
     core::EnergyClosing closing;
@@ -97,10 +102,9 @@ void shear(TestResult& result, core::Driver& driver, const Config& config) {
     result.lateral_rms_error = shear.lateral_rms_error();
     result.lateral_max_error = shear.lateral_max_error();
     result.inertia_ratio = driver.control().inertia_ratio();
-    result.inertial_number =
-        inertial_number(driver.simulation().spheres(), config) * std::sqrt(result.inertia_ratio);
+    result.inertial_number = inertial * std::sqrt(result.inertia_ratio);
     try {
-        result.results = evaluate_curve(result.curve, config.triaxial.confining_stress);
+        result.results = evaluate_curve(result.curve, config.triaxial.confining_stress, rule);
     } catch (const SimulationError& error) {
         driver.fail(error.what());  // its state is worth a look
     }

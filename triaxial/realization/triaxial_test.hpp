@@ -24,7 +24,7 @@ struct Sample {
 struct TestResult {
     CurveResults results;
     std::vector<CurvePoint> curve;
-    std::string end_reason;
+    std::string end_reason;  ///< of failure_name(), or ended_as_asked
 
     double porosity = 0;                                ///< before compression, in the box [-]
     double sheared_porosity = 0;                        ///< when shear begins [-]

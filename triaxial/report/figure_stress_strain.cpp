@@ -57,6 +57,9 @@ Figure stress_strain_figure(const Gnuplot& gnuplot, const RunFolder& run) {
          {"last", last},
          {"floor_stress", std::min(0.0, 1.1e-3 * std::ranges::min(run.curve.deviator_stress))},
          {"peak", peak},
+         {"peak_name", r.failure == Failure::peak      ? "peak"
+                       : r.failure == Failure::plateau ? "plateau"
+                                                       : "largest"},
          {"peak_text", significant(peak)},
          {"peak_strain", peak_strain},
          {"peak_strain_text", significant(peak_strain, 3)},
@@ -66,9 +69,10 @@ Figure stress_strain_figure(const Gnuplot& gnuplot, const RunFolder& run) {
     return {picture,
             fmt::format("Deviator stress and volumetric strain (contraction positive) over axial "
                         "strain. <i>E</i><sub>50</sub> is the secant to half the {}.",
-                        r.peak_found ? "peak"
-                                     : "largest deviator stress, no peak having been "
-                                       "reached")};
+                        r.failure == Failure::peak      ? "peak"
+                        : r.failure == Failure::plateau ? "plateau"
+                                                        : "largest deviator stress, no peak "
+                                                          "having been reached")};
 }
 
 }  // namespace grainfield::triaxial::report

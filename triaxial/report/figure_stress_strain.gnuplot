@@ -11,7 +11,7 @@ set yrange [floor_stress:1.16*peak]
 set format x ''
 set ylabel 'Deviator stress {/:Italic q} (kPa)' offset 0.5,0
 set key bottom right
-peak_label = 'peak '.peak_text.' kPa at '.peak_strain_text.' %'
+peak_label = peak_name.' '.peak_text.' kPa at '.peak_strain_text.' %'
 if (peak_strain > 0.6*last) {
     set label 1 peak_label at peak_strain,peak right offset -0.5,1.0 tc rgb ink
 } else {

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "triaxial/realization/curve.hpp"
 #include "triaxial/report/text.hpp"
 
 namespace grainfield::triaxial::report {
@@ -57,15 +58,23 @@ Table results_table(const RunFolder& run) {
     // docs/method.md, section 8: 1 to 2 % of a peak is chaos.
     const std::string chaos = "± 1–2 % by chaos in a single realization (project’s measurements)";
     Builder b("Results", &run.summary);
-    b.row(r.peak_found ? "Peak deviator stress <i>q</i>" : "Largest deviator stress <i>q</i>",
+    b.row(r.failure == Failure::peak      ? "Peak deviator stress <i>q</i>"
+          : r.failure == Failure::plateau ? "Deviator stress <i>q</i> of the plateau"
+                                          : "Largest deviator stress <i>q</i>",
           significant(1e-3 * r.peak_deviator_stress) + " kPa",
-          r.peak_found ? chaos : "the run ended while <i>q</i> still rose; " + chaos);
+          r.failure == Failure::strain_limit ? "no peak before the run ended; " + chaos : chaos);
+    b.number("smoothed_peak_deviator_stress_Pa", "the same, smoothed over 0.2 % of strain",
+             [](double v) { return significant(1e-3 * v) + " kPa"; });
     b.row("Axial strain there", percent(r.axial_strain_at_peak));
     b.row("Secant modulus <i>E</i><sub>50</sub>", significant(1e-6 * r.E50) + " MPa");
+    if (r.smoothed_E50 && moduli_differ(r.E50, *r.smoothed_E50))
+        b.row("the same, from the smoothed curve", significant(1e-6 * *r.smoothed_E50) + " MPa",
+              "the curve is not smooth there");
     b.row("Macroscopic friction angle φ", degrees_text(r.friction_angle) + "°",
           significant(r.friction_angle) + " rad");
     b.row("Confining stress σ<sub>3</sub>", significant(1e-3 * r.confining_stress) + " kPa");
-    b.text("end_reason", "The run ended because");
+    if (const auto reason = run.summary.optional_text("end_reason"))
+        b.row("The run ended because", escape(end_in_words(*reason)));
     return b.take();
 }
 
@@ -166,7 +175,9 @@ std::string outcome(const RunFolder& run) {
         "At {} kPa confining stress the sample {} <b>{} kPa</b> deviator stress at {} axial "
         "strain; <i>E</i><sub>50</sub> is <b>{} MPa</b> and the friction angle <b>{}°</b>.",
         significant(1e-3 * r.confining_stress),
-        r.peak_found ? "peaks at" : "still hardens when the run ends, having reached",
+        r.failure == Failure::peak      ? "peaks at"
+        : r.failure == Failure::plateau ? "levels off at"
+                                        : "shows no peak before the run ends, having reached",
         significant(1e-3 * r.peak_deviator_stress), percent(r.axial_strain_at_peak),
         significant(1e-6 * r.E50), degrees_text(r.friction_angle));
 }

@@ -49,10 +49,11 @@ std::string run_page(const RunFolder& run, std::span<const MohrCircle> companion
     Page page(fmt::format("Grainfield report · run “{}”", folder),
               words.empty() ? "Triaxial test" : fmt::format("Triaxial test: {}", words),
               outcome(run));
-    if (!run.results.peak_found)
+    if (run.results.failure == Failure::strain_limit)
         page.paragraph(
-            "No peak was found: <i>q</i> still rose when the run ended. All values “at the peak” "
-            "are those of the largest <i>q</i> reached and may be too low.",
+            "No peak was found: the run ended before <i>q</i> had fallen for good or levelled off. "
+            "All values “at the peak” are those of the largest <i>q</i> up to the strain at which "
+            "it ended and may be too low.",
             "warning");
 
     page.section("Key results");

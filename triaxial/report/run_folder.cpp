@@ -23,6 +23,19 @@ double positive(const JsonFile& summary, std::string_view key) {
     return value;
 }
 
+/// Earlier versions wrote only whether q still rose.
+Failure failure(const JsonFile& summary) {
+    if (const auto name = summary.optional_text("failure")) {
+        const std::optional<Failure> known = failure_of_name(*name);
+        if (known) return *known;
+        throw FileError(fmt::format(
+            "{}: key 'failure' must be \"peak\", \"plateau\" or \"strain-limit\", is \"{}\"",
+            summary.path().string(), *name));
+    }
+    return summary.optional_flag("peak_found").value_or(true) ? Failure::peak
+                                                              : Failure::strain_limit;
+}
+
 KeyResults key_results(const JsonFile& summary) {
     KeyResults results;
     results.confining_stress = positive(summary, "confining_stress_Pa");
@@ -30,7 +43,8 @@ KeyResults key_results(const JsonFile& summary) {
     results.axial_strain_at_peak = positive(summary, "axial_strain_at_peak");
     results.E50 = positive(summary, "E50_Pa");
     results.friction_angle = positive(summary, "friction_angle_rad");
-    results.peak_found = summary.optional_flag("peak_found").value_or(true);
+    results.smoothed_E50 = summary.optional_number("smoothed_E50_Pa");
+    results.failure = failure(summary);
     return results;
 }
 

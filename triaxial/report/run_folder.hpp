@@ -8,6 +8,7 @@
 
 #include "core/scene/energy.hpp"
 #include "core/scene/particle_store.hpp"
+#include "triaxial/realization/failure.hpp"
 #include "triaxial/report/curve_file.hpp"
 #include "triaxial/report/json_file.hpp"
 #include "triaxial/report/mohr.hpp"
@@ -16,12 +17,13 @@ namespace grainfield::triaxial::report {
 
 /// What the page shows first; the rest is looked up in `summary` where it is printed.
 struct KeyResults {
-    double confining_stress = 0;      ///< sigma_3 [Pa]
-    double peak_deviator_stress = 0;  ///< [Pa]
-    double axial_strain_at_peak = 0;  ///< [-]
-    double E50 = 0;                   ///< secant modulus at half the peak [Pa]
-    double friction_angle = 0;        ///< macroscopic [rad]
-    bool peak_found = true;           ///< false: the run ended while q still rose
+    double confining_stress = 0;         ///< sigma_3 [Pa]
+    double peak_deviator_stress = 0;     ///< [Pa]
+    double axial_strain_at_peak = 0;     ///< [-]
+    double E50 = 0;                      ///< secant modulus at half the peak [Pa]
+    double friction_angle = 0;           ///< macroscopic [rad]
+    std::optional<double> smoothed_E50;  ///< where the file has it [Pa]
+    Failure failure = Failure::peak;     ///< what the largest deviator stress is
 };
 
 struct RunFolder {

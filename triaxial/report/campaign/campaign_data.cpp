@@ -8,6 +8,7 @@
 #include "core/base/errors.hpp"
 #include "core/files/text_file.hpp"
 #include "triaxial/config/toml_file.hpp"
+#include "triaxial/realization/failure.hpp"
 #include "triaxial/report/json_file.hpp"
 
 namespace grainfield::triaxial::report {
@@ -24,18 +25,29 @@ std::vector<triaxial::Row> read_rows(const fs::path& path) {
     const auto fail = [&](const char* what) {
         throw FileError(fmt::format("{}:{}: {}", path.string(), lines.number(), what));
     };
-    // Behind these columns may stand those of swept keys.
+    // Behind these columns may stand those of swept keys. Tables of earlier versions end with the
+    // state hash.
+    constexpr std::string_view added = ",failure,end_reason";
     const std::string header(core::trim(rows_csv({})));
-    if (!lines.next(line) || !(std::string(line) + ",").starts_with(header + ","))
-        fail("not the header of a table of results");
+    const std::string earlier = header.substr(0, header.size() - added.size());
+    const bool found = lines.next(line);
+    const auto begins_with = [&](const std::string& columns) {
+        return found && (std::string(line) + ",").starts_with(columns + ",");
+    };
+    const bool says_end = begins_with(header);
+    if (!says_end && !begins_with(earlier)) fail("not the header of a table of results");
     while (lines.next(line)) {
         std::vector<std::string_view> fields;
-        for (std::string_view rest = line; fields.size() < 11;)
+        for (std::string_view rest = line; fields.size() < 13;)
             fields.push_back(core::next_field(rest, ','));
         triaxial::Row row;
         row.case_name = fields[0];
         row.failed = fields[3] == "failed";
         row.state_hash = fields[10];
+        if (says_end) {
+            row.failure = fields[11];
+            row.end_reason = fields[12];
+        }
         const auto number = [&](std::size_t at, auto& value) {
             if (!core::parse_number(fields[at], value)) fail("a number is expected");
         };
@@ -84,6 +96,7 @@ CampaignData read_campaign_data(const fs::path& folder) {
     for (triaxial::Row& row : read_rows(folder / "results.csv")) {
         CaseData& one = place(row);
         data.wall_seconds += row.wall_seconds;
+        if (row.failure == failure_name(Failure::strain_limit)) ++one.without_peak;
         if (row.failed)
             ++one.failed;
         else

@@ -20,7 +20,8 @@ struct CaseData {
     std::map<std::string, std::string> values;  ///< of all config keys, as TOML
     std::vector<triaxial::Row> rows;            ///< that did not fail, by realization
     std::optional<triaxial::Row> deterministic;
-    std::size_t failed = 0;  ///< [-]
+    std::size_t failed = 0;        ///< [-]
+    std::size_t without_peak = 0;  ///< of the rows: ended before a peak or plateau [-]
 };
 
 struct CampaignData {

@@ -32,15 +32,17 @@ std::string p_text(const std::optional<Test>& test) {
 void add_moments(Page& page, const CampaignData& data, const CampaignStatistics& all,
                  std::size_t q) {
     const Quantity& quantity = quantities[q];
-    const std::vector<std::string> header{"case", "runs",      "failed", "deterministic", "mean",
-                                          "95 %", "deviation", "95 %",   "COV",           "95 %"};
+    const std::vector<std::string> header{"case",          "runs", "failed", "no peak",
+                                          "deterministic", "mean", "95 %",   "deviation",
+                                          "95 %",          "COV",  "95 %"};
     std::vector<std::vector<std::string>> rows;
     for (std::size_t c = 0; c < all.size(); ++c) {
         const CaseStatistics& s = all[c][q];
         rows.push_back({escape(data.cases[c].name), count(static_cast<double>(s.count)),
-                        count(static_cast<double>(data.cases[c].failed)), text(s.deterministic),
-                        text(s.mean), text(s.mean_interval), text(s.deviation, 3),
-                        text(s.deviation_interval), text(s.variation, 3),
+                        count(static_cast<double>(data.cases[c].failed)),
+                        count(static_cast<double>(data.cases[c].without_peak)),
+                        text(s.deterministic), text(s.mean), text(s.mean_interval),
+                        text(s.deviation, 3), text(s.deviation_interval), text(s.variation, 3),
                         text(s.variation_interval)});
     }
     page.columns(fmt::format("{}, {}", quantity.name, quantity.unit), header, rows);
@@ -125,12 +127,30 @@ std::string lead(const CampaignData& data) {
                        data.cases.size() == 1 ? "" : "s", failed, duration(data.wall_seconds));
 }
 
+/// Runs without a peak bias the statistics: they are counted where nobody can miss it.
+void add_warning(Page& page, const CampaignData& data) {
+    std::size_t done = 0, without_peak = 0;
+    for (const CaseData& one : data.cases) {
+        done += one.rows.size();
+        without_peak += one.without_peak;
+    }
+    if (without_peak == 0) return;
+    page.paragraph(
+        fmt::format("No peak was found in {} of {} runs: they ended before <i>q</i> had fallen for "
+                    "good or levelled off. Their peak is the largest <i>q</i> up to the strain at "
+                    "which they ended and may be too low (column <code>failure</code> of "
+                    "<code>results.csv</code>).",
+                    count(static_cast<double>(without_peak)), count(static_cast<double>(done))),
+        "warning");
+}
+
 std::string campaign_page(const CampaignData& data, const CampaignStatistics& all) {
     const Gnuplot gnuplot;
     const std::string folder =
         escape(std::filesystem::weakly_canonical(data.path).filename().string());
     Page page(fmt::format("Grainfield report · campaign “{}”", folder), "Monte Carlo campaign",
               lead(data));
+    add_warning(page, data);
     page.section("Results");
     for (std::size_t q = 0; q < std::size(quantities); ++q) add_moments(page, data, all, q);
     page.paragraph(
