@@ -165,6 +165,23 @@ TEST(MapField, GridThatDoesNotFitTheBoxIsRefused) {
                 HasSubstr("the field's grid measures 1.5 m along x, but the sample 0.5 m"));
 }
 
+// A campaign's start has been compressed; its spheres stay in the cells that they had.
+TEST(MapField, TheGridStrainsWithTheSample) {
+    Config config;
+    config.packing.blocks = {1, 4, 1};
+    config.packing.block = Vec3(0.5, 0.25, 0.5);
+    config.field.variable = randomfield::Variable::stiffness;
+    Sample sample{stacked().spheres, *stacked().box};
+    Sample compressed = sample;
+    const double share = 0.86;
+    compressed.box.upper.y() = compressed.box.lower.y() + share * compressed.box.size().y();
+    for (double& y : compressed.spheres.position.y)
+        y = compressed.box.lower.y() + share * (y - compressed.box.lower.y());
+    map_field(config, 0, sample);
+    map_field(config, 0, compressed);
+    EXPECT_EQ(compressed.spheres.normal_stiffness, sample.spheres.normal_stiffness);
+}
+
 TEST(BoxOfPacking, WallsStartAtTheSpheresOfForeignFiles) {
     for (const double lid : {1.0, 1.1, 2.0}) {
         core::SphereFile file = stacked();
