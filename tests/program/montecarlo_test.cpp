@@ -37,7 +37,8 @@ class MonteCarlo : public testing::Test {
         const Vec3 size = sample.box.size();
         config_ = fmt::format(
             "[packing]\nblocks = [2, 4, 2]\nblock = [{}, {}, {}]\n[field]\nvariable = "
-            "'stiffness'\n[montecarlo]\nrealizations = 8\n[montecarlo.sweep]\n"
+            "'stiffness'\n[triaxial]\nmax_axial_strain = 0.02\n[montecarlo]\nrealizations = "
+            "8\n[montecarlo.sweep]\n"
             "'field.stiffness.cov' = [0.4, 0.8]\n",
             size.x() / 2, size.y() / 4, size.z() / 2);
     }
