@@ -120,6 +120,8 @@ blocks = [2, 4, 2]
 block = [0.15, 0.15, 0.15]
 [field]
 variable = "stiffness"
+[triaxial]
+max_axial_strain = 0.015 # about where the peak is
 [montecarlo]
 realizations = $realizations
 [montecarlo.sweep]
