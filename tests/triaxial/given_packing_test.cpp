@@ -129,6 +129,22 @@ TEST(ConfigOfPacking, BlocksCoverTheSample) {
     EXPECT_THAT(contradiction(known, config, "packing.blocks"), HasSubstr("in 1 x 2 x 1 blocks"));
 }
 
+// The files in a campaign's cases/ give the blocks of the packing, and go with a start that is
+// lower.
+TEST(ConfigOfPacking, AStartThatWasCompressedKeepsTheBlocksOfItsCase) {
+    Config config;
+    config.packing.blocks = {1, 4, 1};
+    config.packing.block = Vec3(0.5, 0.25, 0.5);
+    core::SphereFile start = stacked();
+    start.kind = "start";
+    for (double& y : start.spheres.position.y) y *= 0.86;
+    start.box->upper.y() *= 0.86;
+    const Config kept =
+        config_of_packing(start, "P.h5", config, {"packing.blocks", "packing.block"});
+    EXPECT_EQ(kept.packing.blocks, config.packing.blocks);
+    EXPECT_EQ(kept.packing.block, config.packing.block);
+}
+
 // The mean of a trend is that of the sample's mid-height, whatever the source of the packing.
 TEST(ConfigOfPacking, ATrendBelongsToTheSample) {
     Config config;
