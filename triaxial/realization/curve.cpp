@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <span>
 
 #include "core/base/errors.hpp"
@@ -18,39 +17,34 @@ double crossing(double strain0, double q0, double strain1, double q1, double q) 
     return strain0 + (q - q0) / (q1 - q0) * (strain1 - strain0);
 }
 
-/// Strains at which q rises through `half`. The curve starts at zero strain and zero q.
-std::vector<double> rises_through(std::span<const CurvePoint> curve, double half) {
-    std::vector<double> strains;
-    CurvePoint before{};
-    for (const CurvePoint& point : curve) {
-        if (before.deviator_stress < half && point.deviator_stress >= half)
-            strains.push_back(crossing(before.axial_strain, before.deviator_stress,
-                                       point.axial_strain, point.deviator_stress, half));
-        before = point;
+/// Strains at which q rises through `half`; strain(k) and q(k) of `points` points. The curve starts
+/// at zero strain and zero q.
+template <class Strain, class Stress>
+std::vector<double> rises_through(double half, std::size_t points, const Strain& strain,
+                                  const Stress& q) {
+    std::vector<double> rises;
+    double strain0 = 0, q0 = 0;
+    for (std::size_t k = 0; k < points; ++k) {
+        if (q0 < half && q(k) >= half)
+            rises.push_back(crossing(strain0, q0, strain(k), q(k), half));
+        strain0 = strain(k);
+        q0 = q(k);
     }
-    return strains;
-}
-
-/// Strain at which the smoothed curve rises through `half` for the last time; empty if it never
-/// does.
-std::optional<double> last_smoothed_rise(std::span<const CurvePoint> curve, double half,
-                                         double window) {
-    const SmoothedCurve s = smoothed_curve(curve, window);
-    const auto& [strain, q] = s;
-    for (std::size_t k = q.size(); k-- > 0;) {
-        const double before = k > 0 ? q[k - 1] : 0;
-        if (before < half && q[k] >= half)
-            return crossing(k > 0 ? strain[k - 1] : 0, before, strain[k], q[k], half);
-    }
-    return std::nullopt;
+    return rises;
 }
 
 /// E50 of the recorded and of the smoothed curve; `curve` ends with the peak.
 void find_modulus(CurveResults& results, std::span<const CurvePoint> curve) {
     const double half = 0.5 * results.peak_deviator_stress;
-    const std::vector<double> rises = rises_through(curve, half);
-    const double window = std::min(smoothing_window, e50_window_share * rises.front());
-    const double smoothed = last_smoothed_rise(curve, half, window).value_or(rises.front());
+    const std::vector<double> rises = rises_through(
+        half, curve.size(), [&](std::size_t k) { return curve[k].axial_strain; },
+        [&](std::size_t k) { return curve[k].deviator_stress; });
+    const SmoothedCurve s =
+        smoothed_curve(curve, std::min(smoothing_window, e50_window_share * rises.front()));
+    const std::vector<double> smoothed_rises = rises_through(
+        half, s.axial_strain.size(), [&](std::size_t k) { return s.axial_strain[k]; },
+        [&](std::size_t k) { return s.deviator_stress[k]; });
+    const double smoothed = smoothed_rises.empty() ? rises.front() : smoothed_rises.back();
     const double strain = *std::ranges::min_element(
         rises, {}, [&](double rise) { return std::abs(rise - smoothed); });
     if (!(strain > 0) || !(smoothed > 0))
