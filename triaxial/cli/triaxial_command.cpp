@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "core/base/errors.hpp"
 #include "core/base/stopwatch.hpp"
@@ -42,10 +43,10 @@ struct TriaxialArguments {
     CheckpointArguments checkpoints;
 };
 
-/// The sample from a file; where there is a packing.json, it will follow into the run's folder.
-Sample sample_from_file(const fs::path& path, const Config& config, const fs::path& out,
-                        core::Monitor& monitor) {
-    core::SphereFile file = read_packing(path, config);
+/// The sample of a file; where there is a packing.json, it will follow into the run's folder.
+Sample sample_of_file(core::SphereFile read, const fs::path& path, const Config& config,
+                      const fs::path& out, core::Monitor& monitor) {
+    core::SphereFile file = packing_for_test(std::move(read), path, config);
     for (const std::string& note : file.notes)
         monitor.note(fmt::format("{}: {}", path.string(), note));
     if (fs::exists(json_beside(path)) && file.kind == "packing")
@@ -110,6 +111,7 @@ struct Run {
     nlohmann::json identity;
     std::optional<core::FoundCheckpoint> found;
     std::optional<std::string> packing;
+    std::optional<core::SphereFile> spheres;  // of the packing, where they have been read
     std::int64_t realization = 0;
 };
 
@@ -160,9 +162,9 @@ Run prepare_run(const TriaxialArguments& arguments, const fs::path& checkpoint, 
         asked = write_config(config);
         run.config = config;
         if (run.packing) {
-            const core::SphereFile file = core::read_spheres(*run.packing);
-            core::check_spheres(file.spheres, *run.packing, file.lines);
-            run.config = config_of_packing(file, *run.packing, config, given);
+            run.spheres = core::read_spheres(*run.packing);
+            core::check_spheres(run.spheres->spheres, *run.packing, run.spheres->lines);
+            run.config = config_of_packing(*run.spheres, *run.packing, config, given);
         }
         run.used = write_config(run.config);
     }
@@ -192,13 +194,21 @@ struct Before {
     }
 };
 
-core::Simulation begin_test(const Run& run, Before& before, const kernels::KernelTable& kernels,
+/// The sample that the run begins with; spheres that have been read are used up.
+Sample first_sample(Run& run, const fs::path& out, core::Monitor& monitor,
+                    core::Checkpoint& checkpoint) {
+    if (!run.packing) return sample_from_nothing(run.config, out, monitor, checkpoint);
+    core::SphereFile read =
+        run.spheres ? *std::exchange(run.spheres, {}) : core::read_spheres(*run.packing);
+    return sample_of_file(std::move(read), *run.packing, run.config, out, monitor);
+}
+
+core::Simulation begin_test(Run& run, Before& before, const kernels::KernelTable& kernels,
                             const fs::path& out, core::Monitor& monitor,
                             core::Checkpoint& checkpoint) {
     const core::SimulationOptions options{.skin = 0, .ledger = true};
     if (before.ready) return {core::Scene{}, kernels, options};
-    Sample sample = run.packing ? sample_from_file(*run.packing, run.config, out, monitor)
-                                : sample_from_nothing(run.config, out, monitor, checkpoint);
+    Sample sample = first_sample(run, out, monitor, checkpoint);
     before.times.packing = before.watch.lap();
     before.field = map_field(run.config, run.realization, sample);
     before.field.covariance_error = field_covariance_error(run.config);
@@ -229,7 +239,7 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
     const fs::path out = arguments.out;
     const fs::path checkpoint_file = out / "checkpoint.bin";
     const RunLock lock = RunLock::of_folder(out);
-    const Run run = prepare_run(arguments, checkpoint_file, session);
+    Run run = prepare_run(arguments, checkpoint_file, session);
     const Config& config = run.config;
     check_field_data(config);
     const kernels::KernelTable& kernels = core::choose_kernels(config.solver);

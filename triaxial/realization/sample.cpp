@@ -18,7 +18,11 @@
 namespace grainfield::triaxial {
 
 core::SphereFile read_packing(const std::filesystem::path& path, const Config& config) {
-    core::SphereFile file = core::read_spheres(path);
+    return packing_for_test(core::read_spheres(path), path, config);
+}
+
+core::SphereFile packing_for_test(core::SphereFile file, const std::filesystem::path& path,
+                                  const Config& config) {
     core::ParticleStore& s = file.spheres;
     core::check_spheres(s, path.string(), file.lines);
     std::vector<std::pair<std::int32_t, std::int32_t>> candidates;

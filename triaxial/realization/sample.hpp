@@ -16,6 +16,9 @@ namespace grainfield::triaxial {
 /// packings and starts of grainfield. Throws InputError (bad spheres, overlaps, a column of a
 /// property that field.variable makes random), FileError.
 core::SphereFile read_packing(const std::filesystem::path& path, const Config& config);
+/// The same of what has been read from `path` already.
+core::SphereFile packing_for_test(core::SphereFile file, const std::filesystem::path& path,
+                                  const Config& config);
 
 /// A sample of what was read. A file that was written as the start of tests brings the shear forces
 /// of its contacts. Throws FileError where these are damaged.
