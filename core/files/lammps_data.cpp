@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -26,10 +25,6 @@ namespace grainfield::core {
 namespace {
 
 constexpr double default_density = 2600.0;  ///< of a sphere without mass; Tran et al.'s [kg/m3]
-
-double volume(double radius) {
-    return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
-}
 
 struct Atom {
     std::int64_t id = 0;
@@ -77,8 +72,7 @@ class Parser {
     double number(std::string_view name, std::string_view word) const {
         double value = 0.0;
         if (!parse_number(word, value))
-            fail(fmt::format("column {} = {}: must be a finite number{}", name,
-                             word.empty() ? "(nothing)" : shortened(word), foreign_number(word)));
+            fail("column " + bad_value(name, word, "must be a finite number"));
         return value;
     }
 
@@ -234,7 +228,7 @@ class Parser {
         for (std::size_t i = 0; i < s.size(); ++i) {
             const Atom& a = atoms_[i];
             s.radius[i] = a.diameter / 2;
-            s.mass[i] = a.density * volume(s.radius[i]);
+            s.mass[i] = a.density * sphere_volume(s.radius[i]);
             s.position.set(i, Vec3(a.position.data()));
             s.velocity.set(i, Vec3(a.velocity.data()));
             s.spin.set(i, Vec3(a.spin.data()));
@@ -313,7 +307,7 @@ std::string format_lammps_data(const SphereFile& file) {
     text += "\nAtoms # sphere\n\n";
     for (std::size_t i = 0; i < s.size(); ++i) {
         const double r = s.radius[i];
-        const double density = s.mass[i] > 0 ? s.mass[i] / volume(r) : default_density;
+        const double density = s.mass[i] > 0 ? s.mass[i] / sphere_volume(r) : default_density;
         append_row(text, {static_cast<std::int64_t>(i) + 1, 1},
                    {2 * r, density, s.position.x[i], s.position.y[i], s.position.z[i]});
     }

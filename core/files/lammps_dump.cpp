@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -62,9 +61,7 @@ class DumpReader {
 
     double number(std::string_view name, std::string_view word) const {
         double value = 0.0;
-        if (!parse_number(word, value))
-            fail(fmt::format("{} = {}: must be a finite number{}", name,
-                             word.empty() ? "(nothing)" : shortened(word), foreign_number(word)));
+        if (!parse_number(word, value)) fail(bad_value(name, word, "must be a finite number"));
         return value;
     }
 
@@ -238,8 +235,7 @@ class DumpReader {
             if (mass != none)
                 s.mass[i] = units.mass * positive(mass);
             else if (density != none)
-                s.mass[i] = units.density * positive(density) * 4.0 / 3.0 * std::numbers::pi *
-                            s.radius[i] * s.radius[i] * s.radius[i];
+                s.mass[i] = units.density * positive(density) * sphere_volume(s.radius[i]);
         }
     }
 

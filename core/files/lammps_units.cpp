@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <vector>
 
 #include "core/files/sphere_file.hpp"
@@ -70,9 +69,7 @@ std::string implausible_in_si(const SphereFile& file) {
     if (s.size() == 0) return {};
     std::vector<double> densities;
     for (std::size_t i = 0; i < s.size(); ++i)
-        if (s.mass[i] > 0)
-            densities.push_back(s.mass[i] / (4.0 / 3.0 * std::numbers::pi * s.radius[i] *
-                                             s.radius[i] * s.radius[i]));
+        if (s.mass[i] > 0) densities.push_back(s.mass[i] / sphere_volume(s.radius[i]));
     const double radius = median({s.radius.begin(), s.radius.end()});
     const double density = densities.empty() ? 1e3 : median(std::move(densities));
     const char* allowed = "if other units are meant, name them";

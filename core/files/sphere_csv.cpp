@@ -186,9 +186,7 @@ SphereFile parse_sphere_csv(std::string_view text, const std::filesystem::path& 
             const std::string_view field = trim(next_field(line, ','));
             if (!store_value(*c, field, s, n))
                 throw_at_line(path, lines.number(),
-                              fmt::format("column {} = {}: {}{}", c->name,
-                                          field.empty() ? "(nothing)" : shortened(field),
-                                          c->allowed, foreign_number(field)));
+                              "column " + bad_value(c->name, field, c->allowed));
         }
         file.lines.push_back(lines.number());
     }

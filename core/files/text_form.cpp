@@ -116,6 +116,11 @@ std::string foreign_number(std::string_view field) {
     return {};
 }
 
+std::string bad_value(std::string_view name, std::string_view field, std::string_view allowed) {
+    return fmt::format("{} = {}: {}{}", name, field.empty() ? "(nothing)" : shortened(field),
+                       allowed, foreign_number(field));
+}
+
 std::string foreign_row(std::string_view row, std::size_t expected) {
     for (char other : std::string_view(";\t|"))
         if (row.find(other) != std::string_view::npos)

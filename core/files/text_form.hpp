@@ -19,7 +19,10 @@ bool names_column(std::string_view header, std::string_view name);
 /// "; ..." to append to a message, empty where nothing is known.
 std::string foreign_number(std::string_view field);
 
-/// The same for a row that has too many fields because its decimals are commas.
+/// "NAME = FIELD: ALLOWED" of a value that is not as it must be, with what foreign_number() says.
+std::string bad_value(std::string_view name, std::string_view field, std::string_view allowed);
+
+/// As foreign_number(), for a row that has too many fields because its decimals are commas.
 std::string foreign_row(std::string_view row, std::size_t expected);
 
 }  // namespace grainfield::core

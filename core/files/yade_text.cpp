@@ -83,10 +83,10 @@ SphereFile parse_yade_text(std::string_view text, const std::filesystem::path& p
         for (std::size_t c = 0; c < 4; ++c) {
             const bool good = parse_number(words[c], *values[c]) && (c < 3 || *values[c] > 0);
             if (!good)
-                throw_at_line(path, lines.number(),
-                              fmt::format("column {} = {}: {}{}", names[c], shortened(words[c]),
-                                          c < 3 ? "must be a finite number [m]" : "must be > 0 m",
-                                          foreign_number(words[c])));
+                throw_at_line(
+                    path, lines.number(),
+                    "column " + bad_value(names[c], words[c],
+                                          c < 3 ? "must be a finite number [m]" : "must be > 0 m"));
         }
         file.lines.push_back(lines.number());
         ++n;

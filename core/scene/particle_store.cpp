@@ -5,6 +5,10 @@
 
 namespace grainfield::core {
 
+double sphere_volume(double radius) {
+    return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+}
+
 void ParticleStore::resize(std::size_t n) {
     for (Vec3Column* column : {&position, &velocity, &spin}) column->resize(n);
     for (Column<double>* column : {&radius, &mass, &normal_stiffness, &friction_angle})

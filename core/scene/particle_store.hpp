@@ -38,6 +38,9 @@ struct Vec3Column {
 using BlockIndex = std::array<std::int32_t, 3>;
 inline constexpr BlockIndex no_block{-1, -1, -1};
 
+/// [m3]; radius [m].
+double sphere_volume(double radius);
+
 struct ParticleStore {
     // State.
     Vec3Column position;  ///< centres [m]

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 
 #include "core/base/errors.hpp"
@@ -133,7 +132,7 @@ class TrueConfig {
         for (std::size_t i = 0; i < s.size(); ++i) {
             if (!(s.mass[i] > 0)) return;  // those get the config's
             mass += s.mass[i];
-            volume += 4.0 / 3.0 * std::numbers::pi * s.radius[i] * s.radius[i] * s.radius[i];
+            volume += core::sphere_volume(s.radius[i]);
         }
         const double density = mass / volume;
         if (given("particle.density") &&
@@ -220,8 +219,8 @@ core::Box box_of_packing(const core::SphereFile& file, std::string* note) {
     const core::Box spheres = core::bounding_box(file.spheres);
     if (!file.box) return spheres;
     const Vec3 gap = (spheres.lower - file.box->lower).cwiseMax(file.box->upper - spheres.upper);
-    double smallest = file.spheres.radius.empty() ? 0 : file.spheres.radius[0];
-    for (double r : file.spheres.radius) smallest = std::min(smallest, r);
+    const auto& radius = file.spheres.radius;
+    const double smallest = radius.empty() ? 0 : std::ranges::min(radius);
     if (is_ours(file) && gap.maxCoeff() <= smallest) return *file.box;
     if (note != nullptr && gap.maxCoeff() > 1e-3 * spheres.size().maxCoeff())
         *note = fmt::format(
@@ -248,8 +247,7 @@ std::string packing_attributes(const packing::Packing& p) {
 std::string density_text(const core::ParticleStore& s) {
     double least = 0, most = 0;
     for (std::size_t i = 0; i < s.size(); ++i) {
-        const double density =
-            s.mass[i] / (4.0 / 3.0 * std::numbers::pi * s.radius[i] * s.radius[i] * s.radius[i]);
+        const double density = s.mass[i] / core::sphere_volume(s.radius[i]);
         least = i == 0 ? density : std::min(least, density);
         most = std::max(most, density);
     }
