@@ -93,7 +93,8 @@ std::vector<SweptKey> read_sweep(const TomlReader& reader, const toml::node& swe
         if (array == nullptr || array->empty())
             throw reader.wrong_value("montecarlo.sweep." + toml_string(path), *values,
                                      "an array of one or more values");
-        SweptKey& key = keys.emplace_back(path, path.substr(path.rfind('.') + 1));
+        keys.push_back({path, path.substr(path.rfind('.') + 1), {}});
+        SweptKey& key = keys.back();
         for (const toml::node& value : *array) {
             trial.check(reader, "montecarlo.sweep", path, value);
             key.values.push_back(&value);
