@@ -92,7 +92,11 @@ class BlockPacker {
     void shake(double friction_angle) {
         simulation_.change().set_friction_angle(friction_angle);
         const double area = options_.block.x() * options_.block.z();
-        core::WallServo servo(lid, {.stress = lid_stress_share * own_stress(), .max_speed = 0.2});
+        core::WallServo servo(lid, {.stress = lid_stress_share * own_stress(),
+                                    .max_speed = 0.2,
+                                    .gain = 0.8,
+                                    .integral = 0.02,
+                                    .present = 1});
         const double start = simulation_.time();
         const double phase_x = 2 * std::numbers::pi * random_.uniform(0, bouts_);
         const double phase_z = 2 * std::numbers::pi * random_.uniform(1, bouts_);

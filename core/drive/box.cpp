@@ -29,7 +29,8 @@ double most_kinetic_energy(const Simulation& simulation, double rate, double str
     const Vec3 size = box_dimensions(simulation);
     // Velocities from 0 to rate * size along each axis.
     const double imposed = total * rate * rate * size.squaredNorm() / 6;
-    return 10 * imposed + 0.01 * stress * size.prod();
+    const double fall = total * simulation.scene().gravity.cwiseAbs().dot(size);
+    return 10 * imposed + fall + 0.01 * stress * size.prod();
 }
 
 }  // namespace grainfield::core

@@ -14,8 +14,9 @@ double wall_area(const Vec3& dimensions, int axis);
 double axis_stress(const Simulation& simulation, int axis);
 
 /// What the kinetic energy of a sample that is strained at `rate` [1/s] under `stress` [Pa] never
-/// reaches while its step is short enough: ten times that of the motion imposed, and a hundredth of
-/// stress times volume, many times the energy in the contacts [J].
+/// reaches while its step is short enough: ten times that of the motion imposed, what a fall
+/// through the box would give, and a hundredth of stress times volume, many times the energy in the
+/// contacts [J].
 double most_kinetic_energy(const Simulation& simulation, double rate, double stress);
 
 }  // namespace grainfield::core

@@ -11,10 +11,14 @@ double wall_compression(const Simulation& simulation, std::size_t wall) {
 double WallServo::steer(Simulation& simulation, double area, double step) {
     const double target = options_.stress * area;
     const double error = wall_compression(simulation, wall_) - target;
-    const double stiffness = simulation.wall_loads()[wall_].stiffness;
+    const double present = simulation.wall_loads()[wall_].stiffness;
+    if (stiffness_ == 0)
+        stiffness_ = present;
+    else if (present > 0 || options_.present == 1)
+        stiffness_ += options_.present * (present - stiffness_);
     double speed = -options_.max_speed;  // nothing touches: close the gap
-    if (stiffness > 0) {
-        const double answer = error / stiffness / step;
+    if (stiffness_ > 0) {
+        const double answer = error / std::max(present, stiffness_) / step;
         const double grown = steady_speed_ + options_.integral * answer;
         const double wanted = options_.gain * answer + grown;
         speed = std::clamp(wanted, -options_.max_speed, options_.max_speed);

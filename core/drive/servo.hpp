@@ -8,18 +8,28 @@
 
 namespace grainfield::core {
 
-/// Integral servo for one wall. In a step the wall moves outwards by
-///   gain * e/K + integral part,   e = force on the wall - target stress * area,
-/// where K is the stiffness of the wall's contacts as measured in this step, so that no gain
-/// depends on the material. The integral part follows a wall that must keep moving (shear) without
-/// lag; it stops growing while the speed is capped.
+/// Servo for one wall. In a step the wall moves outwards by
+///   gain * e/K + integral part,   e = force on the wall - target stress * area.
+/// K is the stiffness of the wall's contacts as measured, so that no gain depends on the material.
+/// The integral part follows a wall that must keep moving (shear) without lag; it stops growing
+/// while the speed is capped. In this the wall is a membrane of the mass K h^2/integral behind a
+/// dashpot, h the step: where spheres fall away from it, it follows as fast as that mass gains
+/// speed under the target stress. Until it has touched a sphere it moves in at the capped speed.
+///
+/// The gains are those at which one sphere under the wall comes to rest at 0.8 of the stability
+/// limit, for damping from 0.1 to 0.4 and, with the shorter step of StepControl, above. A sphere
+/// held by the wall alone is stable for (omega h)^2 < 4 - 2 gain.
 class WallServo {
   public:
     struct Options {
         double stress = 0;       ///< target, compression positive [Pa]
         double max_speed = 0;    ///< cap of the wall's speed, > 0 [m/s]
-        double gain = 0.8;       ///< share of e/K answered in a step; 1 would be all of it [-]
-        double integral = 0.02;  ///< growth of the integral part in a step [-]
+        double gain = 0.3;       ///< share of e/K answered in a step; 1 would be all of it [-]
+        double integral = 0.06;  ///< growth of the integral part in a step [-]
+        /// K is at least its running mean, of which the present step is this share: a wall that
+        /// has kept few contacts is not taken for a soft one. With 1, K is that of the step and a
+        /// wall that touches nothing moves at max_speed [-].
+        double present = 0.01;
     };
 
     WallServo(std::size_t wall, const Options& options) : wall_(wall), options_(options) {}
@@ -37,13 +47,14 @@ class WallServo {
 
     template <class Archive>
     void serialize(Archive& archive) {
-        archive(bytes(wall_), bytes(options_), steady_speed_);
+        archive(bytes(wall_), bytes(options_), steady_speed_, stiffness_);
     }
 
   private:
     std::size_t wall_;
     Options options_;
     double steady_speed_ = 0;
+    double stiffness_ = 0;  // running mean; 0: nothing was touched [N/m]
 };
 
 /// Compressive force of the spheres on a wall [N].

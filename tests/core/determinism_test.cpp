@@ -40,7 +40,8 @@ std::string hash_after(const Scene& scene, const kernels::KernelTable& table, co
     omp_set_num_threads(run.threads);
     Simulation sim(scene, table, {.skin = run.skin, .ledger = run.ledger});
     const double height = scene.walls[3].point.y();
-    WallServo servo(3, {.stress = 2000, .max_speed = 0.5});
+    WallServo servo(
+        3, {.stress = 2000, .max_speed = 0.5, .gain = 0.8, .integral = 0.02, .present = 1});
     for (int k = 0; k < run.steps; ++k) {
         sim.compute_forces(run.sums);
         servo.steer(sim, height * height, 2e-4);
