@@ -24,17 +24,24 @@ constexpr double relaxed_to = 0.85;      // at the step below [-]
 constexpr double relaxed_step = 0.8;     // of the stability limit [-]
 constexpr std::int64_t most_isotropic_steps = 200000;
 
+/// Whether spheres fall towards the wall: it stands, and carries their weight beside the stress.
+bool carries_weight(const core::Simulation& simulation, std::size_t wall) {
+    return simulation.scene().gravity.dot(simulation.walls()[wall].normal) < 0;
+}
+
 }  // namespace
 
 IsotropicResult compress_isotropically(core::Driver& driver, double stress) {
     core::Simulation& simulation = driver.simulation();
     const Vec3 start = core::box_dimensions(simulation);
     std::vector<core::WallServo> servos;
-    for (std::size_t w = 0; w < 6; ++w)
+    for (std::size_t w = 0; w < 6; ++w) {
+        if (carries_weight(simulation, w)) continue;
         servos.emplace_back(
             w, core::WallServo::Options{
                    .stress = stress,
                    .max_speed = 0.5 * most_strain_rate * start[static_cast<int>(w) / 2]});
+    }
     IsotropicResult result;
     const auto section =
         core::section_of(driver.checkpoint(), "isotropic compression", [&](auto& archive) {

@@ -136,5 +136,33 @@ TEST(Isotropic, RandomSampleReachesTheStressAndItsStiffnessIsBounded) {
     EXPECT_GT(share, 0.65);
 }
 
+TEST(Isotropic, UnderGravityTheWallBelowStandsAndCarriesTheWeightToo) {
+    // Ten times the earth's, so that the weight is not lost in the stress.
+    const Material material;
+    const double stress = 20e3;
+    std::vector<double> radii;
+    for (int i = 0; i < 100; ++i) radii.push_back(0.02 + 0.0001 * i);
+    core::ParticleStore s = testing::spheres_of(radii, material);
+    const double height = place_at_random(s, 0.25, 0.25, 0.4, 3);
+    core::Scene scene = testing::box_scene(s, {Vec3::Zero(), Vec3(0.25, height, 0.25)}, material);
+    scene.gravity = Vec3(0, -98.1, 0);
+    core::Simulation simulation(std::move(scene), kernels::reference_kernels());
+    core::Monitor monitor;
+    core::Driver driver(simulation, {}, monitor);
+    compress_isotropically(driver, stress);
+    EXPECT_EQ(simulation.walls()[2].point, Vec3::Zero());
+    const Vec3 size = core::box_dimensions(simulation);
+    double mass = 0;
+    for (double m : simulation.spheres().mass) mass += m;
+    for (std::size_t w = 0; w < 6; ++w) {
+        const double area = core::wall_area(size, static_cast<int>(w) / 2);
+        const double weight = w == 2 ? 98.1 * mass / area : 0;
+        // The walls have friction here: the sides carry a part of the weight.
+        EXPECT_NEAR(core::wall_compression(simulation, w) / area, stress + weight,
+                    3e-3 * (stress + weight))
+            << w;
+    }
+}
+
 }  // namespace
 }  // namespace grainfield::packing

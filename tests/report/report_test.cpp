@@ -226,26 +226,39 @@ TEST(Report, GivesTheSmoothedModulusWhereItDiffers) {
     EXPECT_THAT(page_of(1.021), HasSubstr("from the smoothed curve"));
 }
 
-TEST(Report, SaysInWordsWhatTheCaseIsAndHowQuasiStatic) {
+TEST(Report, SaysInWordsWhatTheCaseIsAndWhatMakesItDoubtful) {
     const TestFolder folder;
     auto summary = fixture::write_run(folder.path(), {});
     summary.erase("state_hash");
     summary.erase("lateral_stress_rms_error");
     summary.erase("lateral_stress_max_error");
-    const auto page_of = [&](const std::string& name, double inertial_number) {
+    const auto page_of = [&](const std::string& name) {
         summary["case"] = name;
-        summary["inertial_number"] = inertial_number;
         fixture::write_file(folder.path() / "summary.json", summary.dump());
         return fixture::read_file(write_report(folder.path()));
     };
-    EXPECT_THAT(page_of("none", 5e-5),
-                AllOf(HasSubstr("uniform properties"), HasSubstr(">quasi-static<"),
+    // A folder of before, which does not say how it was sheared.
+    EXPECT_THAT(page_of("none"),
+                AllOf(HasSubstr("uniform properties"),
                       HasSubstr("aim: 0.5 %; from the records of curve.csv"),
-                      Not(HasSubstr("Hash of the final state"))));
-    EXPECT_THAT(page_of("both", 5e-3), AllOf(HasSubstr("random friction angle and stiffness"),
-                                             HasSubstr("nearly quasi-static: a slower test")));
-    EXPECT_THAT(page_of("my <own>", 0.05), AllOf(HasSubstr("Triaxial test: my &lt;own&gt;"),
-                                                 HasSubstr("not quasi-static: inertia adds")));
+                      Not(HasSubstr("Hash of the final state")), Not(HasSubstr("Quasi-static")),
+                      Not(HasSubstr("Warning: "))));
+    summary["quasi_static"] = true;
+    summary["warnings"] = nlohmann::json::array();
+    summary["damping_share"] = 0.234;
+    summary["kinetic_over_elastic_energy"] = 0.0123;
+    summary["lateral_stress_rms_error_to_E50"] = 0.0456;
+    summary["lateral_stress_rms_error_to_peak"] = 0.00789;
+    EXPECT_THAT(page_of("both"),
+                AllOf(HasSubstr("random friction angle and stiffness"), HasSubstr(">yes<"),
+                      HasSubstr("23 %"), HasSubstr("0.012"), HasSubstr("4.56 %"),
+                      HasSubstr("0.789 %"), Not(HasSubstr("Warning: "))));
+    summary["quasi_static"] = false;
+    summary["warnings"] = {"held <badly>", "not quasi-static"};
+    EXPECT_THAT(
+        page_of("my <own>"),
+        AllOf(HasSubstr("Triaxial test: my &lt;own&gt;"), HasSubstr(">no<"),
+              HasSubstr("Warning: held &lt;badly&gt;."), HasSubstr("Warning: not quasi-static.")));
 }
 
 TEST(Report, NamesAMissingFile) {

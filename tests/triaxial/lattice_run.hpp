@@ -65,7 +65,7 @@ inline SmallStrain small_strain(Sample sample, const Config& config,
     core::Monitor silent;
     core::Driver driver(simulation, config.time, silent);
     packing::compress_isotropically(driver, config.triaxial.confining_stress);
-    ShearStage shear(driver, config.triaxial);
+    ShearStage shear(driver, config.triaxial, config.particle.density, {.transient_strain = 1e-5});
     shear.run();
     const CurvePoint& end = shear.curve().back();
     const auto start =

@@ -10,7 +10,6 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/stopwatch.hpp"
-#include "core/drive/step_control.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/json_text.hpp"
 #include "core/files/sphere_checks.hpp"
@@ -93,6 +92,11 @@ void print_test(const TestResult& r, const Config& config, const FieldRecord& fi
     print_row("friction angle", fmt::format("{:.4f} rad = {:.2f} degrees", r.results.friction_angle,
                                             r.results.friction_angle * degrees));
     print_row("inertial number", fmt::format("{:.2e}", r.inertial_number));
+    if (r.shear_energy)
+        print_row("up to the largest q",
+                  fmt::format("{:.0f} % of the dissipated energy went into numerical damping; "
+                              "kinetic over elastic energy {:.2g}",
+                              100 * r.shear_energy->damping_share, r.shear_energy->kinetic_ratio));
     print_row("steps", fmt::format("{} isotropic, {} shear, {:.2f} us each", r.isotropic_steps,
                                    r.shear_steps, 1e6 * r.mean_step));
     print_row("ended because", end_in_words(r.end_reason));
@@ -102,6 +106,7 @@ void print_test(const TestResult& r, const Config& config, const FieldRecord& fi
                           "sum closes to {:.2g} % of the work put in",
                           energy.work_put_in, energy.external_work, energy.friction_work,
                           energy.damping_work, 100 * r.energy_closing_error));
+    for (const std::string& warning : r.warnings) print_row("warning", warning);
 }
 
 /// A run to begin or to go on with.
@@ -114,15 +119,6 @@ struct Run {
     std::optional<core::SphereFile> spheres;  // of the packing, where they have been read
     std::int64_t realization = 0;
 };
-
-/// A fixed step that the contacts at the end do not allow; empty: it is automatic, or short enough.
-std::string step_warning(core::Simulation& simulation, const core::TimeOptions& time) {
-    if (!time.step || time.mass_scaling > 1) return {};
-    simulation.compute_forces();
-    core::StepControl control(time);
-    (void)control.next(simulation);
-    return control.exceeded_text();
-}
 
 /// The file of measured values, if it matters.
 std::string field_data(const Config& config) {
@@ -278,8 +274,6 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
 
     print_row("spheres", fmt::format("{}, {} contacts when shear began",
                                      simulation.spheres().size(), result.contacts));
-    if (const std::string warning = step_warning(simulation, config.time); !warning.empty())
-        print_row("warning: time step", warning);
     print_row("density", density_text(simulation.spheres()));
     print_test(result, config, field);
     const double total = summary["wall_seconds"]["total"];

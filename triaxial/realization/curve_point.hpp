@@ -17,6 +17,8 @@ struct CurvePoint {
     double unbalanced_force_ratio = 0;  ///< at the point [-]
     double time = 0;                    ///< since shear began [s]
     std::int64_t contacts = 0;          ///< touching, at the point [-]
+    /// Mean over the same steps of the squared relative errors of both lateral stresses [-].
+    double lateral_square_error = 0;
 };
 
 }  // namespace grainfield::triaxial

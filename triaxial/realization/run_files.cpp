@@ -82,6 +82,10 @@ nlohmann::json run_summary(const TestResult& r, const FieldRecord& field, const 
         {"end_reason", r.end_reason},
         {"lateral_stress_rms_error", r.lateral_rms_error},
         {"lateral_stress_max_error", r.lateral_max_error},
+        {"lateral_stress_rms_error_to_E50", r.held.to_E50},
+        {"lateral_stress_rms_error_to_peak", r.held.to_peak},
+        {"quasi_static", r.quasi_static},
+        {"warnings", r.warnings},
         {"first_q_minimum_ratio", r.lowest_start_ratio},
         {"isotropic_unbalanced_force_ratio", r.isotropic_unbalanced},
         {"isotropic_stress_error", r.isotropic_stress_error},
@@ -107,6 +111,10 @@ nlohmann::json run_summary(const TestResult& r, const FieldRecord& field, const 
         json["energy_closing_error"] = r.energy_closing_error;
         json["energy_J"] = energy_json(r.energies.back().energy);
         json["shear_began_s"] = r.shear_began;
+    }
+    if (r.shear_energy) {
+        json["damping_share"] = r.shear_energy->damping_share;
+        json["kinetic_over_elastic_energy"] = r.shear_energy->kinetic_ratio;
     }
     if (field.variable != randomfield::Variable::none) json["field"] = field_json(field, config);
     return json;

@@ -16,10 +16,13 @@ namespace {
 constexpr std::size_t top_wall = 3;                // y high, in the order of box_walls()
 constexpr double recording_interval = 5e-5;        // of axial strain [-]
 constexpr std::size_t points_judged_at_once = 10;  // new ones, before an end is looked for
-constexpr double servo_speed_share = 5.0;          // cap of the side walls over the axial rate [-]
 constexpr double settled_strain = 1e-3;            // from here the largest servo error counts [-]
-constexpr double servo_lost = 0.5;   // error of a lateral stress that ends a test ... [-]
-constexpr int servo_patience = 150;  // ... after so many steps in a row
+// A lateral stress off by so much [-] ends a test once it has been for so many inertial times
+// d sqrt(rho/sigma_3) and for so much axial strain [-]. A collapse, which a slow test takes as one
+// moment, is over sooner; the walls follow it.
+constexpr double servo_lost = 0.5;
+constexpr double servo_patience_times = 20;
+constexpr double servo_patience_strain = 1e-3;
 
 /// Poisson's ratio of a random packing whose spheres move with the mean strain:
 /// (1 - lambda)/(4 + lambda). Only the start of the test uses it.
@@ -29,17 +32,19 @@ double affine_poisson_ratio(double lambda) {
 
 }  // namespace
 
-ShearStage::ShearStage(core::Driver& driver, const TriaxialOptions& options,
+ShearStage::ShearStage(core::Driver& driver, const TriaxialOptions& options, double density,
                        const FailureRule& rule)
     : driver_(driver),
       options_(options),
       start_size_(core::box_dimensions(driver.simulation())),
-      rule_(rule) {
+      rule_(rule),
+      inertial_time_(rule.transient_strain / options.strain_rate) {
+    // Nothing made of spheres follows the confining stress faster than this: the speed at which a
+    // sphere that it pushes from rest has moved by its size, whatever the size.
+    const double max_speed = std::sqrt(options.confining_stress / density);
     for (std::size_t wall : {0u, 1u, 4u, 5u})
-        servos_.emplace_back(wall, core::WallServo::Options{
-                                       .stress = options.confining_stress,
-                                       .max_speed = servo_speed_share * options.strain_rate * 0.5 *
-                                                    start_size_[static_cast<int>(wall) / 2]});
+        servos_.emplace_back(wall, core::WallServo::Options{.stress = options.confining_stress,
+                                                            .max_speed = max_speed});
 }
 
 /// Gives every sphere and wall the velocity of the imposed strain field, so that the test does not
@@ -77,23 +82,34 @@ void ShearStage::steer(double step) {
     for (int axis : {0, 2}) {
         const double error = stress[axis] / options_.confining_stress - 1;
         square_error_sum_ += error * error;
-        worst = std::max(worst, std::abs(error));
+        if (std::abs(error) > std::abs(worst)) worst = error;
     }
     time_ += step;
-    watch_servos(worst);
+    watch_servos(worst, step);
 }
 
 /// Ends a test whose side walls cannot follow: what it would measure is another stress path.
-void ShearStage::watch_servos(double error) {
-    steps_off_ = error > servo_lost && axial_strain() > settled_strain ? steps_off_ + 1 : 0;
-    if (steps_off_ < servo_patience) return;
+void ShearStage::watch_servos(double error, double step) {
+    if (std::abs(error) <= servo_lost || axial_strain() <= settled_strain) {
+        time_off_ = 0;
+        return;
+    }
+    if (time_off_ == 0) strain_when_off_ = axial_strain();
+    time_off_ += step;
+    if (time_off_ < servo_patience_times * inertial_time_ ||
+        axial_strain() - strain_when_off_ < servo_patience_strain)
+        return;
     const core::Simulation& simulation = driver_.simulation();
     throw SimulationError(fmt::format(
-        "the side walls do not hold the confining stress of {:g} Pa: {:g} and {:g} Pa now, more "
-        "than {:g} % off for {} steps (step {}, time {:g} s, axial strain {:.3f} %)",
-        options_.confining_stress, core::axis_stress(simulation, 0),
-        core::axis_stress(simulation, 2), 100 * servo_lost, servo_patience, simulation.steps(),
-        simulation.time(), 100 * axial_strain()));
+        "the side walls do not hold the confining stress of {:g} Pa: {}; the lateral stresses are "
+        "{:g} and {:g} Pa now and were more than {:g} % off for {:.3g} s, {:.3g} times "
+        "d*sqrt(rho/sigma_3) (step {}, time {:g} s, axial strain {:.3f} %)",
+        options_.confining_stress,
+        error > 0 ? "the sample dilates faster than they can give way"
+                  : "the sample collapses faster than they can follow",
+        core::axis_stress(simulation, 0), core::axis_stress(simulation, 2), 100 * servo_lost,
+        time_off_, time_off_ / inertial_time_, simulation.steps(), simulation.time(),
+        100 * axial_strain()));
 }
 
 /// Adds a point to the curve; true if the test may end.
@@ -110,11 +126,14 @@ bool ShearStage::record() {
     point.unbalanced_force_ratio = simulation.unbalanced_force_ratio();
     point.time = time_;
     point.contacts = simulation.contacts().sums().contacts;
+    point.lateral_square_error = square_error_sum_ / (2 * static_cast<double>(stress_count_));
     curve_.push_back(point);
     if (point.axial_strain > settled_strain)
         for (int axis : {0, 2})
             max_error_ = std::max(max_error_, std::abs(mean[axis] / options_.confining_stress - 1));
+    all_square_errors_ += square_error_sum_;
     stress_sum_.setZero();
+    square_error_sum_ = 0;
     stress_count_ = 0;
 
     highest_ = std::max(highest_, point.deviator_stress);
@@ -140,7 +159,8 @@ template <class Archive>
 void ShearStage::archive_state(Archive& archive) {
     using core::bytes;
     archive(bytes(start_size_), bytes(curve_), highest_, steps_, time_, bytes(stress_sum_),
-            stress_count_, next_strain_, square_error_sum_, max_error_, steps_off_);
+            square_error_sum_, stress_count_, next_strain_, all_square_errors_, max_error_,
+            time_off_, strain_when_off_);
     for (core::WallServo& servo : servos_) archive(servo);
 }
 
@@ -174,7 +194,7 @@ void ShearStage::run() {
 }
 
 double ShearStage::lateral_rms_error() const {
-    return std::sqrt(square_error_sum_ /
+    return std::sqrt((all_square_errors_ + square_error_sum_) /
                      (2.0 * static_cast<double>(std::max<std::int64_t>(1, steps_))));
 }
 

@@ -15,8 +15,10 @@ namespace grainfield::triaxial {
 class ShearStage {
   public:
     /// The simulation must be at rest under the isotropic stress, its first six walls those of
-    /// core::box_walls().
-    ShearStage(core::Driver& driver, const TriaxialOptions& options, const FailureRule& rule = {});
+    /// core::box_walls(). `density` is that of the spheres [kg/m3]; rule.transient_strain is the
+    /// axial strain within one inertial time d sqrt(rho/sigma_3).
+    ShearStage(core::Driver& driver, const TriaxialOptions& options, double density,
+               const FailureRule& rule);
 
     /// Shears until max_axial_strain, or until the sample has surely failed.
     void run();
@@ -34,7 +36,7 @@ class ShearStage {
     void archive_state(Archive& archive);
     void start_affine();
     void steer(double step);
-    void watch_servos(double error);
+    void watch_servos(double error, double step);
     bool record();
     bool may_end();
     double axial_strain() const;
@@ -52,10 +54,12 @@ class ShearStage {
     // Since the last recorded point.
     Vec3 stress_sum_ = Vec3::Zero();
     std::int64_t stress_count_ = 0;
+    double square_error_sum_ = 0;
     double next_strain_ = 0;
     // Servo quality.
-    double square_error_sum_ = 0, max_error_ = 0;
-    int steps_off_ = 0;  // in a row
+    double inertial_time_;                          // [s]
+    double all_square_errors_ = 0, max_error_ = 0;  // up to the last recorded point; at points
+    double time_off_ = 0, strain_when_off_ = 0;     // in a row, and the strain when it began
 };
 
 }  // namespace grainfield::triaxial

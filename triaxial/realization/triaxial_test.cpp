@@ -82,16 +82,38 @@ void compress(TestResult& result, core::Driver& driver, const Config& config, do
     result.fabric = core::measure_fabric(simulation);
 }
 
-void shear(TestResult& result, core::Driver& driver, const Config& config) {
-    driver.monitor().begin("shear");
-    const core::ParticleStore& spheres = driver.simulation().spheres();
-    const double inertial = inertial_number(spheres, config);
-    // I is the axial strain within d sqrt(rho/sigma_3), the time in which a sphere under the
-    // confining stress moves by its size: no sample has failed before.
-    const FailureRule rule{.spheres = spheres.size(), .transient_strain = inertial};
-    ShearStage shear(driver, config.triaxial, rule);
-    shear.run();
-    if (driver.simulation().keeps_ledger()) driver.log_energy();
+/// Ends a test whose confining stress was not held where its results come from: they are those of
+/// another stress path.
+void require_held_stress(const TestResult& r, core::Driver& driver, const Config& config) {
+    if (r.held.worst() <= stress_not_held) return;
+    driver.fail(fmt::format(
+        "the confining stress of {:g} Pa was not held: the lateral stresses were off by {:.3g} % "
+        "(RMS) up to where E50 is read ({:.3g} % of axial strain) and by {:.3g} % up to the "
+        "largest deviator stress (at {:.3g} %), more than {:g} %; a slower test "
+        "(triaxial.strain_rate, {:g} 1/s now) gives the walls time: the inertial number is {:.2g}",
+        config.triaxial.confining_stress, 100 * r.held.to_E50,
+        100 * 0.5 * r.results.peak_deviator_stress / r.results.E50, 100 * r.held.to_peak,
+        100 * r.results.axial_strain_at_peak, 100 * stress_not_held, config.triaxial.strain_rate,
+        r.inertial_number));
+}
+
+std::vector<std::string> warnings_of(const TestResult& r, const core::Driver& driver) {
+    std::vector<std::string> warnings;
+    if (r.held.worst() > stress_held_badly)
+        warnings.push_back(fmt::format(
+            "the confining stress was held within {:.3g} % (RMS) up to E50 and {:.3g} % up to the "
+            "peak, aim: {:g} %; a slower test (triaxial.strain_rate) holds it better",
+            100 * r.held.to_E50, 100 * r.held.to_peak, 100 * stress_held_badly));
+    if (std::string text = not_quasi_static(r.inertial_number, r.shear_energy); !text.empty())
+        warnings.push_back(std::move(text));
+    if (std::string text = driver.control().exceeded_text(); !text.empty())
+        warnings.push_back(std::move(text));
+    return warnings;
+}
+
+/// What `shear` left behind, and what can be read off it.
+void evaluate(TestResult& result, const ShearStage& shear, const FailureRule& rule,
+              core::Driver& driver, const Config& config) {
     core::EnergyClosing closing;
     for (const core::EnergyRow& row : result.energies) closing.add(row.energy);
     result.energy_closing_error = closing.error();
@@ -102,7 +124,7 @@ void shear(TestResult& result, core::Driver& driver, const Config& config) {
     result.lateral_rms_error = shear.lateral_rms_error();
     result.lateral_max_error = shear.lateral_max_error();
     result.inertia_ratio = driver.control().inertia_ratio();
-    result.inertial_number = inertial * std::sqrt(result.inertia_ratio);
+    result.inertial_number = rule.transient_strain * std::sqrt(result.inertia_ratio);
     try {
         result.results = evaluate_curve(result.curve, config.triaxial.confining_stress, rule);
     } catch (const SimulationError& error) {
@@ -113,6 +135,26 @@ void shear(TestResult& result, core::Driver& driver, const Config& config) {
         result.lowest_start_ratio = std::min(result.lowest_start_ratio,
                                              p.deviator_stress / config.triaxial.confining_stress);
     }
+    result.held = held_stress(result.curve, result.results);
+    require_held_stress(result, driver, config);
+    const auto peak = std::ranges::lower_bound(result.curve, result.results.axial_strain_at_peak,
+                                               {}, &CurvePoint::axial_strain);
+    result.shear_energy = shear_energy(result.energies, result.shear_began, peak->time);
+    result.quasi_static = not_quasi_static(result.inertial_number, result.shear_energy).empty();
+    result.warnings = warnings_of(result, driver);
+}
+
+void shear(TestResult& result, core::Driver& driver, const Config& config) {
+    driver.monitor().begin("shear");
+    const core::ParticleStore& spheres = driver.simulation().spheres();
+    // I is the axial strain within d sqrt(rho/sigma_3), the time in which a sphere under the
+    // confining stress moves by its size: no sample has failed before.
+    const FailureRule rule{.spheres = spheres.size(),
+                           .transient_strain = inertial_number(spheres, config)};
+    ShearStage shear(driver, config.triaxial, config.particle.density, rule);
+    shear.run();
+    if (driver.simulation().keeps_ledger()) driver.log_energy();
+    evaluate(result, shear, rule, driver, config);
 }
 
 }  // namespace

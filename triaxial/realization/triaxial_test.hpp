@@ -10,6 +10,7 @@
 #include "core/simulation.hpp"
 #include "triaxial/config/config.hpp"
 #include "triaxial/realization/curve.hpp"
+#include "triaxial/realization/quality.hpp"
 
 namespace grainfield::triaxial {
 
@@ -32,9 +33,10 @@ struct TestResult {
     core::Fabric fabric;                                ///< when shear begins
     std::int64_t isotropic_steps = 0, shear_steps = 0;  ///< [-]
     double mean_step = 0;                               ///< of the shear stage [s]
-    double inertia_ratio = 1;           ///< inertia over real mass (mass scaling) [-]
-    double lateral_rms_error = 0;       ///< of both lateral stresses over all steps of shear [-]
-    double lateral_max_error = 0;       ///< at any recorded point after 0.1 % of strain [-]
+    double inertia_ratio = 1;      ///< inertia over real mass (mass scaling) [-]
+    double lateral_rms_error = 0;  ///< of both lateral stresses over all steps of shear [-]
+    double lateral_max_error = 0;  ///< at any recorded point after 0.1 % of strain [-]
+    HeldStress held;
     double lowest_start_ratio = 0;      ///< smallest q over sigma_3 up to half the peak [-]
     double inertial_number = 0;         ///< of the shear rate and the inertia in use [-]
     double isotropic_unbalanced = 0;    ///< at the end of the isotropic stage [-]
@@ -45,6 +47,10 @@ struct TestResult {
     std::vector<core::EnergyRow> energies;  ///< from the start of the isotropic stage
     double shear_began = 0;                 ///< on the clock of `energies` [s]
     double energy_closing_error = 0;  ///< largest change of their sum over the work put in [-]
+    std::optional<ShearEnergy> shear_energy;
+
+    bool quasi_static = false;
+    std::vector<std::string> warnings;  ///< sentences on what makes the numbers doubtful
 };
 
 /// The scene of a test: six walls of the box, friction and stiffness of the config's wall.
@@ -56,9 +62,10 @@ core::Simulation make_simulation(Sample sample, const Config& config,
                                  const kernels::KernelTable& kernels, const std::string& name,
                                  const core::SimulationOptions& options = {});
 
-/// Runs both stages on a simulation made of make_scene(). Throws SimulationError and Interrupted;
-/// the simulation then holds the state reached. With a checkpoint it can be saved and resumed; a
-/// run that resumes brings a simulation without spheres, for the same kernels.
+/// Runs both stages on a simulation made of make_scene(). Throws SimulationError, also where the
+/// confining stress was not held, and Interrupted; the simulation then holds the state reached.
+/// With a checkpoint it can be saved and resumed; a run that resumes brings a simulation without
+/// spheres, for the same kernels.
 TestResult run_test(core::Simulation& simulation, const Config& config, core::Monitor& monitor,
                     core::Checkpoint* checkpoint = nullptr);
 

@@ -45,14 +45,6 @@ std::string plain(double value) {
     return significant(value);
 }
 
-/// How far the flow is from quasi-static, in the usual bounds of the inertial number.
-std::string inertia_in_words(double number) {
-    if (number < 1e-4) return "quasi-static";
-    if (number < 1e-3) return "quasi-static to a good approximation";
-    if (number < 1e-2) return "nearly quasi-static: a slower test gives a somewhat lower peak";
-    return "not quasi-static: inertia adds to the strength";
-}
-
 Table results_table(const RunFolder& run) {
     const KeyResults& r = run.results;
     // docs/method.md, section 8: 1 to 2 % of a peak is chaos.
@@ -116,8 +108,23 @@ Table accuracy_table(const RunFolder& run) {
     b.number(
         "energy_closing_error", "Energy ledger closes to", [](double v) { return percent(v, 2); },
         "largest change of the sum over the work put in");
-    if (const auto inertial = run.summary.optional_number("inertial_number"))
-        b.row("Inertial number", significant(*inertial, 3), inertia_in_words(*inertial));
+    b.number(
+        "lateral_stress_rms_error_to_E50", "RMS up to <i>E</i><sub>50</sub>",
+        [](double v) { return percent(v); }, "above 1 %: a warning; above 5 %: no result");
+    b.number("lateral_stress_rms_error_to_peak", "RMS up to the largest <i>q</i>",
+             [](double v) { return percent(v); });
+    b.number(
+        "inertial_number", "Inertial number", [](double v) { return significant(v, 3); },
+        "of the axial strain rate");
+    b.number(
+        "damping_share", "Share of numerical damping", [](double v) { return percent(v, 2); },
+        "of the energy dissipated in shear, up to the largest <i>q</i>");
+    b.number(
+        "kinetic_over_elastic_energy", "Kinetic over elastic energy",
+        [](double v) { return significant(v, 2); }, "mean over the same");
+    if (const auto quasi_static = run.summary.optional_flag("quasi_static"))
+        b.row("Quasi-static", *quasi_static ? "yes" : "no",
+              "docs/method.md, section 8, has the limits");
     b.number("time_step_s", "Time step", [](double v) { return significant(1e6 * v) + " µs"; });
     b.number("steps", "Steps", count);
     b.text("precision", "Precision");

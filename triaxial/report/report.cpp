@@ -55,6 +55,8 @@ std::string run_page(const RunFolder& run, std::span<const MohrCircle> companion
             "All values “at the peak” are those of the largest <i>q</i> up to the strain at which "
             "it ended and may be too low.",
             "warning");
+    for (const std::string& warning : run.summary.texts("warnings"))
+        page.paragraph(escape("Warning: " + warning + "."), "warning");
 
     page.section("Key results");
     page.tables(key_tables(run));
