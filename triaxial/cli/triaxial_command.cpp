@@ -279,7 +279,7 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
     print_row("spheres", fmt::format("{}, {} contacts when shear began",
                                      simulation.spheres().size(), result.contacts));
     if (const std::string warning = step_warning(simulation, config.time); !warning.empty())
-        print_row("warning: time step", warning);
+        print_row("warning", warning);
     print_row("density", density_text(simulation.spheres()));
     print_test(result, config, field);
     const double total = summary["wall_seconds"]["total"];
