@@ -26,6 +26,9 @@ double share_with_damping(const Damping& damping) {
 
 /// Steps between two looks at a fixed step.
 constexpr std::int64_t fixed_interval = 200;
+/// Among so few spheres a contact that lasts for a step or two, too short for the interval, may be
+/// the only one that there is.
+constexpr std::size_t few_spheres = 50;
 
 constexpr int full_rounds = 5;                             // of Lanczos, from scratch
 constexpr int update_rounds = 1;                           // starting from the last mode
@@ -49,7 +52,7 @@ double StepControl::frequency(const Simulation& simulation, int rounds) {
 
 double StepControl::next(Simulation& simulation) {
     const bool scaled = options_.mass_scaling > 1.0;
-    if (options_.step && !scaled) {
+    if (watches()) {
         if (due(simulation)) watch_fixed_step(simulation);
         return *options_.step;
     }
@@ -71,10 +74,16 @@ double StepControl::next(Simulation& simulation) {
     return step_;
 }
 
+bool StepControl::other_contacts(const Simulation& simulation) const {
+    return watches() && simulation.size() <= few_spheres &&
+           simulation.contacts().count() != contacts_;
+}
+
 /// Leaves all of the state as it is, omega_ and limit() too: nothing follows from what is found.
 void StepControl::watch_fixed_step(const Simulation& simulation) {
-    const bool first = next_estimate_ < 0;
+    const bool first = next_estimate_ < 0 || other_contacts(simulation);
     next_estimate_ = simulation.steps() + fixed_interval;
+    contacts_ = simulation.contacts().count();
     const double omega = estimator_.estimate(simulation, first ? full_rounds : update_rounds,
                                              first ? full_iterations : update_iterations);
     const double limit = omega > 0 ? 2.0 / omega : 0.0;

@@ -24,13 +24,15 @@ class StepControl {
 
     /// True if next() will look at the contacts: forces must be current then.
     bool due(const Simulation& simulation) const {
-        return next_estimate_ < 0 || simulation.steps() >= next_estimate_;
+        return next_estimate_ < 0 || simulation.steps() >= next_estimate_ ||
+               other_contacts(simulation);
     }
 
     /// The present limit 2/omega_max with the inertia in use [s]; 0 before the first estimate.
     double limit() const { return omega_ > 0 ? 2.0 / omega_ : 0.0; }
     /// A fixed step is only watched: the lowest limit 2/omega_max found so far where it was longer
-    /// than that [s]; 0: it never was. Of the contacts at the start and every 200 steps.
+    /// than that [s]; 0: it never was. Of the contacts at the start, every 200 steps, and among few
+    /// spheres whenever others touch.
     double exceeded_limit() const { return exceeded_; }
     /// "the time step of 1e-2 s is above the stability limit of 9.3e-3 s"; empty: it is not.
     std::string exceeded_text() const;
@@ -42,10 +44,12 @@ class StepControl {
     template <class Archive>
     void serialize(Archive& archive) {
         archive(estimator_, network_, caged_governs_, searches_, omega_, omega_target_,
-                inertia_ratio_, step_, next_estimate_, exceeded_);
+                inertia_ratio_, step_, next_estimate_, exceeded_, contacts_);
     }
 
   private:
+    bool watches() const { return options_.step && options_.mass_scaling <= 1.0; }
+    bool other_contacts(const Simulation& simulation) const;
     void watch_fixed_step(const Simulation& simulation);
     void scale_masses(Simulation& simulation);
     double frequency(const Simulation& simulation, int rounds);
@@ -59,7 +63,8 @@ class StepControl {
     double omega_target_ = 0;     // mass scaling: what the scaled network may have [rad/s]
     double inertia_ratio_ = 1;
     double step_ = 0;
-    double exceeded_ = 0;  // [s]
+    double exceeded_ = 0;         // [s]
+    std::int64_t contacts_ = -1;  // when a fixed step was last looked at [-]
     std::int64_t next_estimate_ = -1;
 };
 

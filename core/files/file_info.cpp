@@ -109,7 +109,7 @@ std::string describe_csv(std::string_view text, const fs::path& path) {
     LineReader lines(text);
     std::string_view header;
     if (lines.next_content(header) && is_sphere_csv_header(header))
-        return describe_spheres(parse_sphere_csv(text, path), path);
+        return describe_spheres(parse_spheres(text, path), path);
     return describe_table(text, path);
 }
 
@@ -158,7 +158,7 @@ std::string describe_checkpoint(std::string_view, const fs::path& path) {
 std::string describe_file(const fs::path& path) {
     const std::string suffix = path.extension().string();
     std::string (*describe)(std::string_view, const fs::path&) = nullptr;
-    if (suffix == ".h5") describe = describe_h5;
+    if (suffix == ".h5" || suffix == ".vtkhdf") describe = describe_h5;
     if (suffix == ".csv") describe = describe_csv;
     if (suffix == ".json") describe = describe_json;
     if (suffix == ".toml") describe = describe_toml;

@@ -70,17 +70,23 @@ std::string implausible_in_si(const SphereFile& file) {
     std::vector<double> densities;
     for (std::size_t i = 0; i < s.size(); ++i)
         if (s.mass[i] > 0) densities.push_back(s.mass[i] / sphere_volume(s.radius[i]));
-    const double radius = median({s.radius.begin(), s.radius.end()});
     const double density = densities.empty() ? 1e3 : median(std::move(densities));
     const char* allowed = "if other units are meant, name them";
     if (!(density >= least_density && density <= largest_density))
         return fmt::format(
             "the median density is {:.3g} kg/m3 in SI, {:g} to {:g} are plausible: {}", density,
             least_density, largest_density, allowed);
-    if (!(radius >= least_radius && radius <= largest_radius))
-        return fmt::format("the median radius is {:.3g} m in SI, {:g} to {:g} are plausible: {}",
-                           radius, least_radius, largest_radius, allowed);
-    return {};
+    const std::string why = implausible_radius(file);
+    return why.empty() ? why : fmt::format("{}: {}", why, allowed);
+}
+
+std::string implausible_radius(const SphereFile& file) {
+    const auto& radius = file.spheres.radius;
+    if (radius.empty()) return {};
+    const double middle = median({radius.begin(), radius.end()});
+    if (middle >= least_radius && middle <= largest_radius) return {};
+    return fmt::format("the median radius is {:.3g} m in SI, {:g} to {:g} are plausible", middle,
+                       least_radius, largest_radius);
 }
 
 }  // namespace grainfield::core

@@ -33,5 +33,7 @@ std::string unusable_units(std::string_view name);
 /// Numbers that no SI file of grains has, of a file that does not name its units: "..." for a
 /// message; empty where they are plausible. Looks at the median density and the median radius.
 std::string implausible_in_si(const SphereFile& file);
+/// The same of the radius alone, for formats in which units cannot be named.
+std::string implausible_radius(const SphereFile& file);
 
 }  // namespace grainfield::core

@@ -151,11 +151,13 @@ bool is_written(const SphereFile& file, Group group) {
 
 bool is_sphere_csv_header(std::string_view header) {
     // Names in foreign forms, too: what is wrong with them is said where they are read.
-    header = header.substr(0, header.find('\r'));
-    const auto names = [&](std::string_view name) { return names_column(header, name); };
+    std::string line(header.substr(0, header.find('\r')));
+    if (line.starts_with("\xff\xfe")) line.erase(0, 2);
+    std::erase(line, '\0');
+    const auto names = [&](std::string_view name) { return names_column(line, name); };
     // Measured values and trajectories have positions as well.
     const bool positions = names("x") && names("y") && names("z");
-    return (names("x") && names("radius")) || (positions && !names("value") && !names("time_s"));
+    return names("radius") || (positions && !names("value") && !names("time_s"));
 }
 
 SphereFile parse_sphere_csv(std::string_view text, const std::filesystem::path& path) {

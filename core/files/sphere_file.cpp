@@ -7,6 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/files/atomic_file.hpp"
+#include "core/files/lammps_units.hpp"
 #include "core/files/sphere_formats.hpp"
 #include "core/files/text_file.hpp"
 
@@ -26,6 +27,7 @@ constexpr Format formats[] = {
     {".txt", parse_yade_text, format_yade_text},
     {".dump", parse_lammps_dump, nullptr},
     {".lammpstrj", parse_lammps_dump, nullptr},
+    {".vtkhdf", parse_sphere_h5, nullptr},  // the suffix that VTK gives it
 };
 
 const Format& format_of(const std::filesystem::path& path) {
@@ -64,7 +66,12 @@ SphereFile parse_spheres(std::string_view content, const std::filesystem::path& 
     const Format& format = format_of(path);
     // Dump files come with any name: their first word says what they are.
     const bool dump = is_foreign_sphere_suffix(format.suffix) && content.starts_with("ITEM:");
-    return dump ? parse_lammps_dump(content, path) : format.parse(content, path);
+    if (dump) return parse_lammps_dump(content, path);
+    SphereFile file = format.parse(content, path);
+    if (format.parse == parse_sphere_csv || format.parse == parse_yade_text)
+        if (const std::string why = implausible_radius(file); !why.empty())
+            file.notes.push_back(fmt::format("{}; lengths are read in metres", why));
+    return file;
 }
 
 bool is_foreign_sphere_suffix(std::string_view suffix) {

@@ -47,7 +47,8 @@ struct SphereFile {
 
 /// Suffixes that read_spheres and write_spheres know, for messages.
 inline constexpr const char* sphere_file_suffixes =
-    ".h5, .csv, .data (LAMMPS), .txt (YADE), .dump and .lammpstrj (LAMMPS, only read)";
+    ".h5, .csv, .data (LAMMPS), .txt (YADE), .dump and .lammpstrj (LAMMPS, only read), "
+    ".vtkhdf (only read)";
 
 /// InputError unless the file's suffix is one of these.
 void require_sphere_suffix(const std::filesystem::path& path);

@@ -151,7 +151,9 @@ void append_number(std::string& text, std::int64_t value) {
 
 void throw_at_line(const std::filesystem::path& path, std::int32_t line,
                    const std::string& message) {
-    throw InputError(fmt::format("{}:{}: {}", path.string(), line, message));
+    std::string what = fmt::format("{}:{}: {}", path.string(), line, message);
+    std::erase(what, '\0');  // of text in another encoding; what() would end there
+    throw InputError(what);
 }
 
 std::string_view shortened(std::string_view text) {

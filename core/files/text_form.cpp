@@ -11,7 +11,7 @@
 namespace grainfield::core {
 namespace {
 
-constexpr std::string_view separators = ",;\t| ";
+constexpr std::string_view separators = ",;\t|: ";
 constexpr std::string_view quotes = "\"'";
 
 std::string_view separator_name(char separator) {
@@ -22,6 +22,8 @@ std::string_view separator_name(char separator) {
             return "tabs";
         case '|':
             return "bars (|)";
+        case ':':
+            return "colons (:)";
         case ' ':
             return "blanks";
         default:
@@ -46,6 +48,11 @@ std::string_view without_quotes(std::string_view text) {
     return text;
 }
 
+bool looks_like_utf16(std::string_view text) {
+    return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") ||
+           text.substr(0, 64).find('\0') != std::string_view::npos;
+}
+
 /// A comma between two digits, as in 0,05.
 bool has_decimal_comma(std::string_view text) {
     for (std::size_t i = 1; i + 1 < text.size(); ++i)
@@ -53,11 +60,31 @@ bool has_decimal_comma(std::string_view text) {
     return false;
 }
 
+/// 1.0-101: what Fortran prints where an exponent of three digits leaves no room for its letter.
+bool lacks_exponent_letter(std::string_view text) {
+    const std::size_t sign = text.find_last_of("+-");
+    double value = 0;
+    return sign != std::string_view::npos && sign > 0 && is_digit(text[sign - 1]) &&
+           parse_number(std::string(text.substr(0, sign)) + "e" + std::string(text.substr(sign)),
+                        value);
+}
+
+/// "0.05 m", "5mm", "80 %".
+bool has_unit(std::string_view text) {
+    const std::size_t end = text.find_last_of("0123456789.");
+    if (end == std::string_view::npos || end + 1 == text.size()) return false;
+    const std::string_view unit = trim(text.substr(end + 1));
+    double value = 0;
+    return parse_number(text.substr(0, end + 1), value) &&
+           std::ranges::all_of(unit, [](unsigned char c) {
+               return std::isalpha(c) != 0 || c == '%' || c == '/' || c >= 0x80;
+           });
+}
+
 }  // namespace
 
 std::string foreign_form(std::string_view text, std::string_view header, char separator) {
-    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") ||
-        text.substr(0, 64).find('\0') != std::string_view::npos)
+    if (looks_like_utf16(text))
         return "the text is not UTF-8 (it looks like UTF-16): must be UTF-8";
     const std::size_t cr = text.find('\r');
     if (cr != std::string_view::npos && text.find('\n') > cr + 1)
@@ -76,6 +103,9 @@ std::string foreign_form(std::string_view text, std::string_view header, char se
     if (trim(header).ends_with(separator))
         return fmt::format("it ends with '{}', behind which no name stands: must end with a name",
                            separator);
+    double value = 0;
+    if (parse_number(trim(header.substr(0, header.find(separator))), value))
+        return "it begins with a number: the first line must be a header";
     return {};
 }
 
@@ -95,7 +125,12 @@ bool names_column(std::string_view header, std::string_view name) {
 
 std::string foreign_number(std::string_view field) {
     const std::string_view text = trim(field);
-    if (quoted(text)) return "; the number stands in quotes: must stand without";
+    if (looks_like_utf16(text))
+        return "; the text is not UTF-8 (it looks like UTF-16): must be UTF-8";
+    if (text.find("\xc2\xa0") != std::string_view::npos)
+        return "; a non-breaking blank (U+00A0) stands in it: must not";
+    if (!text.empty() && (quoted(text.substr(0, 1)) || quoted(text.substr(text.size() - 1))))
+        return "; the number stands in quotes: must stand without";
     double value = 0;
     std::string as_e(text);
     const std::size_t d = as_e.find_first_of("dD");
@@ -113,6 +148,8 @@ std::string foreign_number(std::string_view field) {
     if (text.starts_with("\xe2\x88\x92")) return "; its minus is not the ASCII one: must be -";
     if (const std::size_t other = text.find_first_of(";|\t"); other != std::string_view::npos)
         return fmt::format("; {} stand in it: must not", separator_name(text[other]));
+    if (lacks_exponent_letter(text)) return "; its exponent has no letter: must be e or E";
+    if (has_unit(text)) return "; a unit follows the number: must stand without, in SI";
     return {};
 }
 

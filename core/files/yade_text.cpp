@@ -68,8 +68,11 @@ SphereFile parse_yade_text(std::string_view text, const std::filesystem::path& p
                           columns == 5
                               ? fmt::format("{} numbers; must be five: x y z r matId{}", count,
                                             foreign_separator(line))
-                              : fmt::format("{} numbers; must be four: x y z r{}",
+                              : fmt::format("{} numbers; must be four: x y z r{}{}",
                                             count < 4 ? std::to_string(count) : "more than four",
+                                            count == 5 ? ", or five under a line '#format "
+                                                         "x_y_z_r_matId'"
+                                                       : "",
                                             foreign_separator(line)));
         std::int64_t material = 0;
         if (columns == 5 && (!parse_number(words[4], material) || material < 0))

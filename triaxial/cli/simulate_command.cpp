@@ -73,7 +73,7 @@ void run_simulate(const SimulateArguments& arguments, Session& session) {
     print_row("contacts at the end", fmt::format("{}", s.contacts));
     print_row("time, steps", fmt::format("{:.6g} s, {}", s.time, s.steps));
     print_row("time step", fmt::format("{:.6g} s", s.time_step));
-    for (const std::string& warning : s.warnings) print_row("warning: time step", warning);
+    for (const std::string& warning : s.warnings) print_row("warning", warning);
     print_row("energy closing error", fmt::format("{:.2e}", s.energy_closing_error));
     print_row("solver", fmt::format("{}, {}, {} threads", s.isa, s.precision, s.threads));
     print_row("wall time", fmt::format("{}, {:.3g} particle steps/s", duration_text(s.wall_seconds),

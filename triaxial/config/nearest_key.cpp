@@ -26,7 +26,28 @@ std::string_view last_part(std::string_view key) {
     return key.substr(key.rfind('.') + 1);
 }
 
+/// Words in keys of other programs' random fields, and what stands for them here.
+constexpr struct {
+    std::string_view word, answer;
+} absent_features[] = {
+    {"nugget",
+     "; the field has no nugget: errors of measured values are the column error of field.data"},
+    {"angle", "; the axes of correlation are x, y and z, they cannot be turned"},
+    {"rotation", "; the axes of correlation are x, y and z, they cannot be turned"},
+    {"azimuth", "; the axes of correlation are x, y and z, they cannot be turned"},
+    {"dip", "; the axes of correlation are x, y and z, they cannot be turned"},
+};
+
 }  // namespace
+
+std::string_view absent_feature(std::string_view unknown) {
+    constexpr std::string_view table = "field.";
+    if (!unknown.starts_with(table)) return {};
+    const std::string_view key = unknown.substr(table.size());
+    for (const auto& [word, answer] : absent_features)
+        if (key.starts_with(word)) return answer;
+    return {};
+}
 
 std::optional<std::string> nearest_key(std::string_view unknown,
                                        const std::set<std::string>& known) {

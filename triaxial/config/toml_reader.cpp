@@ -4,11 +4,23 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "triaxial/config/nearest_key.hpp"
 #include "triaxial/config/toml_text.hpp"
 
 namespace grainfield::triaxial {
+namespace {
+
+/// An infinity, or something that is no number, alone or in an array: TOML has both.
+bool holds_infinity(const toml::node& value) {
+    if (const toml::array* array = value.as_array())
+        return std::any_of(array->begin(), array->end(), holds_infinity);
+    const auto number = value.value_exact<double>();
+    return number && !std::isfinite(*number);
+}
+
+}  // namespace
 
 TomlReader::TomlReader(const toml::table& root, std::string source, std::string prefix)
     : root_(root), source_(std::move(source)), prefix_(std::move(prefix)) {}
@@ -73,9 +85,11 @@ void TomlReader::check_table(const toml::table& table, const std::string& path) 
         std::set<std::string> known = keys_;
         known.insert(tables_.begin(), tables_.end());
         const auto nearest = nearest_key(before + key, known);
-        throw InputError(fmt::format(
-            "{}: {}{} is not a known key{}", origin_of(value), prefix_, full,
-            nearest ? fmt::format("; did you mean {}{}?", prefix_, *nearest) : std::string()));
+        std::string hint =
+            nearest ? fmt::format("; did you mean {}{}?", prefix_, *nearest) : std::string();
+        if (const std::string_view lack = absent_feature(full); !lack.empty()) hint = lack;
+        throw InputError(
+            fmt::format("{}: {}{} is not a known key{}", origin_of(value), prefix_, full, hint));
     }
 }
 
@@ -100,8 +114,9 @@ InputError TomlReader::located(const InputError& error, const TomlLeaves& over) 
 
 InputError TomlReader::wrong_value(std::string_view path, const toml::node& value,
                                    std::string_view expected) const {
-    return InputError(fmt::format("{}: {}{} = {}: {} is expected", origin_of(value), prefix_, path,
-                                  short_text(value), expected));
+    return InputError(fmt::format("{}: {}{} = {}: {} is expected{}", origin_of(value), prefix_,
+                                  path, short_text(value), expected,
+                                  holds_infinity(value) ? ", which inf and nan are not" : ""));
 }
 
 }  // namespace grainfield::triaxial

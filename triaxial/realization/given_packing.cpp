@@ -222,10 +222,19 @@ core::Box box_of_packing(const core::SphereFile& file, std::string* note) {
     const auto& radius = file.spheres.radius;
     const double smallest = radius.empty() ? 0 : std::ranges::min(radius);
     if (is_ours(file) && gap.maxCoeff() <= smallest) return *file.box;
-    if (note != nullptr && gap.maxCoeff() > 1e-3 * spheres.size().maxCoeff())
+    // Spheres reach out of their own walls by overlaps; out of a periodic box by up to a radius.
+    const double outside =
+        -(spheres.lower - file.box->lower).cwiseMin(file.box->upper - spheres.upper).minCoeff();
+    if (note == nullptr) return spheres;
+    if (gap.maxCoeff() > 1e-3 * spheres.size().maxCoeff())
         *note = fmt::format(
             "the file's box is up to {:.4g} m wider than its spheres: walls start at the spheres",
             gap.maxCoeff());
+    else if (outside > smallest / 10)
+        *note = fmt::format(
+            "spheres reach up to {:.4g} m out of the file's box, as in a periodic one: walls start "
+            "at the spheres",
+            outside);
     return spheres;
 }
 

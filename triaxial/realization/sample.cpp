@@ -16,6 +16,12 @@
 #include "triaxial/realization/given_packing.hpp"
 
 namespace grainfield::triaxial {
+namespace {
+
+// Spheres at rest under any load have less room, unless they stick to each other [-].
+constexpr double loosest_porosity = 0.6;
+
+}  // namespace
 
 core::SphereFile read_packing(const std::filesystem::path& path, const Config& config) {
     return packing_for_test(core::read_spheres(path), path, config);
@@ -54,6 +60,12 @@ core::SphereFile packing_for_test(core::SphereFile file, const std::filesystem::
     std::string note;
     file.box = box_of_packing(file, &note);
     if (!note.empty()) file.notes.push_back(note);
+    const double porosity = 1 - s.solid_volume() / file.box->volume();
+    if (file.kind.empty() && porosity > loosest_porosity)
+        file.notes.push_back(
+            fmt::format("spheres fill only {:.1f} % of the box around them: this is no packing "
+                        "yet, the isotropic stage makes one of it",
+                        100 * (1 - porosity)));
     return file;
 }
 

@@ -28,7 +28,8 @@ std::optional<std::int64_t> fixed_steps(const SceneFile& file, const std::string
     return static_cast<std::int64_t>(steps);
 }
 
-constexpr double report_interval = 0.1;  // [s]
+constexpr double report_interval = 0.1;   // [s]
+constexpr double most_open_energy = 0.1;  // a step below the limit stays well below [-]
 
 class SceneRun {
   public:
@@ -161,6 +162,11 @@ SceneSummary run_scene(const SceneFile& file, const std::filesystem::path& sourc
     if (const std::string warning = run.step_warning(); !warning.empty())
         summary.warnings.push_back(warning);
     summary.energy_closing_error = output.energy_closing_error();
+    if (summary.energy_closing_error > most_open_energy)
+        summary.warnings.push_back(
+            fmt::format("the energies close only to {:.2g} % of the largest: the time step is too "
+                        "long for the contacts that there were",
+                        100 * summary.energy_closing_error));
     summary.wall_seconds = run.wall_seconds();
     summary.particle_steps_per_second =
         double(summary.particles) * double(summary.steps) / summary.wall_seconds;
