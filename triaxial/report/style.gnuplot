@@ -14,3 +14,4 @@ set grid lc rgb pale lw 1 lt 1
 set key textcolor rgb ink samplen 2 spacing 1.25
 set xlabel textcolor rgb ink
 set ylabel textcolor rgb ink
+set cblabel textcolor rgb ink
