@@ -162,10 +162,41 @@ TEST_F(CampaignReport, OfACampaignThatHasJustBegunIsWhole) {
         const std::string page = read_file(write_campaign_report(campaign(rows)));
         EXPECT_THAT(page, HasSubstr("Case correlation_length=10x1x10")) << rows;
         EXPECT_EQ(fixture::occurrences(page, "<svg"), rows < 2   ? 0u
+                                                      : rows < 3 ? 2u
                                                       : rows < 8 ? 2u + 6u
                                                                  : 2u + 18u)
             << rows;
+        // What has too few runs says so once.
+        EXPECT_EQ(fixture::occurrences(page, "drawn from 3 runs on"), rows < 3 ? 3u : 0u) << rows;
+        EXPECT_EQ(fixture::occurrences(page, "drawn from 8 runs on"),
+                  rows < 3 || rows > 7 ? 0u : 3u)
+            << rows;
+        EXPECT_EQ(fixture::occurrences(page, "no case has them"), rows < 8 ? 1u : 0u) << rows;
+        EXPECT_EQ(fixture::occurrences(page, "Fits by maximum likelihood"), rows < 8 ? 0u : 1u);
+        EXPECT_EQ(fixture::occurrences(page, "are left out"), rows < 2 ? 1u : 0u) << rows;
+        // No section stands empty.
+        EXPECT_FALSE(std::regex_search(page, std::regex("</h2>\\s*<h2>"))) << rows;
     }
+}
+
+TEST_F(CampaignReport, SmallPValuesHaveNoMoreDigitsThanTheySay) {
+    // Peaks that are normal with a COV of 0.3 are not lognormal.
+    const std::string page = read_file(write_campaign_report(campaign(60, config, 18)));
+    EXPECT_THAT(page, HasSubstr("<td>&lt;\u00a00.001</td>"));
+    EXPECT_FALSE(std::regex_search(page, std::regex("<td>(0\\.000|[0-9.]+e-)")));
+}
+
+TEST_F(CampaignReport, CasesStandInTheOrderOfTheirNumbers) {
+    const std::string page = read_file(write_campaign_report(campaign(1)));
+    std::size_t last = 0;
+    for (const char* length : {"1x0.1x1", "10x1x10", "100x10x100"}) {
+        const std::size_t at =
+            page.find(fmt::format("<h2>Case correlation_length={}</h2>", length));
+        ASSERT_NE(at, std::string::npos) << length;
+        EXPECT_GT(at, last) << length;
+        last = at;
+    }
+    EXPECT_THAT(page, HasSubstr("3 realizations over 3 cases are done"));
 }
 
 TEST_F(CampaignReport, OfOneCaseWhoseRunsAreAllTheSame) {
@@ -185,11 +216,14 @@ TEST_F(CampaignReport, TrendsGroupTheCasesThatAgreeInAllElse) {
                 testing::ElementsAre("field.correlation_length", "field.stiffness.cov"));
     const auto trends = report::trends_over(data, "field.correlation_length");
     ASSERT_EQ(trends.size(), 2u);
-    EXPECT_EQ(trends[0].name, "cov = 0.4");
+    EXPECT_EQ(trends[0].name, "COV of kₙ = 0.4");
     ASSERT_EQ(trends[0].points.size(), 3u);
     EXPECT_EQ(trends[0].points[0].x, 0.1);
     EXPECT_EQ(trends[0].points[2].x, 10);
-    EXPECT_EQ(report::trends_over(data, "field.stiffness.cov").size(), 3u);
+    const auto over_cov = report::trends_over(data, "field.stiffness.cov");
+    ASSERT_EQ(over_cov.size(), 3u);
+    EXPECT_EQ(over_cov[0].name, "θ = 1, 0.1, 1 m");
+    EXPECT_EQ(over_cov[2].name, "θ = 100, 10, 100 m");
 }
 
 TEST_F(CampaignReport, TrendsTakeNumbersAndTheSecondOfThree) {
@@ -206,7 +240,7 @@ TEST_F(CampaignReport, TrendsTakeNumbersAndTheSecondOfThree) {
     data.cases.emplace_back().rows.resize(2);  // an older one, without the key
     const auto trends = report::trends_over(data, "field.correlation_length");
     ASSERT_EQ(trends.size(), 1u);
-    EXPECT_EQ(trends[0].name, "friction_angle = not set");
+    EXPECT_EQ(trends[0].name, "φ = not set");
     ASSERT_EQ(trends[0].points.size(), 2u);
     EXPECT_EQ(trends[0].points[0].x, 0.5);
     EXPECT_EQ(trends[0].points[1].x, 2.5);
@@ -225,6 +259,10 @@ TEST_F(CampaignReport, TrendsHaveTheUnitsOfTheirAxes) {
     const std::string page = read_file(write_campaign_report(dir));
     EXPECT_THAT(page, HasSubstr("Confining stress"));
     EXPECT_THAT(page, HasSubstr("Friction angle"));
+    const auto lines = report::trends_over(data, "particle.friction_angle");
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_EQ(lines[0].name, "σ₃ = 10 kPa");
+    EXPECT_EQ(lines[1].name, "σ₃ = 1000 kPa");
 }
 
 TEST_F(CampaignReport, DrawsCasesThatDifferInATextKey) {

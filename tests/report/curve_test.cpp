@@ -64,7 +64,10 @@ TEST(CurveFile, ServoErrorIsThatOfBothWallPairs) {
     curve.lateral_stress_z = {100e3, 98e3};
     const ServoError error = servo_error(curve, 100e3);
     EXPECT_DOUBLE_EQ(error.rms, std::sqrt((9e-4 + 1e-4 + 4e-4) / 4));
-    EXPECT_NEAR(error.max, 0.02, 1e-15);  // the 3 % come before 0.1 % of strain
+    ASSERT_TRUE(error.max);
+    EXPECT_NEAR(*error.max, 0.02, 1e-15);  // the 3 % come before 0.1 % of strain
+    curve.axial_strain = {0.0, 0.0009};
+    EXPECT_FALSE(servo_error(curve, 100e3).max);
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include <numbers>
 #include <regex>
 #include <set>
+#include <sstream>
+#include <string>
 
 #include "core/base/errors.hpp"
 #include "tests/report/run_fixture.hpp"
@@ -159,6 +161,56 @@ TEST(Report, FitsNoEnvelopeThroughRunsThatCannotBeCompared) {
         fixture::read_file(write_report(folder.path() / "at-100", std::span(companions).first(1)));
     EXPECT_THAT(alone,
                 HasSubstr("Whether the intercept is zero can only be told from runs at other"));
+}
+
+TEST(Report, NamesTheMohrCirclesWithTheUnitOfTheAxes) {
+    const TestFolder folder;
+    const std::array companions{folder.path() / ("at-200-" + std::string(100, 'x') + "-end")};
+    fixture::write_run(folder.path() / "at-100", {});
+    fixture::write_run(companions[0], {.confining_stress = 200e3});
+    const std::string page = fixture::read_file(write_report(folder.path() / "at-100", companions));
+    EXPECT_THAT(page, AllOf(HasSubstr("at-100, σ₃ = 100 kPa"), HasSubstr("xxx-end, σ₃ = 200 kPa"),
+                            Not(HasSubstr("τ = 0"))));
+    const std::string alone = fixture::read_file(write_report(folder.path() / "at-100"));
+    EXPECT_THAT(alone, AllOf(HasSubstr("τ = σ tan 28.6°"), Not(HasSubstr("at-100, σ₃"))));
+}
+
+/// Replaces every number of a column of a table by a multiple of it.
+void scale_column(const std::filesystem::path& file, std::size_t column, double factor) {
+    std::istringstream lines(fixture::read_file(file));
+    std::string line, text;
+    for (bool header = true; std::getline(lines, line); header = false) {
+        std::istringstream fields(line);
+        std::size_t c = 0;
+        for (std::string field; std::getline(fields, field, ','); ++c)
+            text += (c > 0 ? "," : "") +
+                    (c == column && !header ? fmt::format("{}", factor * std::stod(field)) : field);
+        text += '\n';
+    }
+    fixture::write_file(file, text);
+}
+
+TEST(Report, NamesOfAxesStayInsideTheFigure) {
+    const TestFolder folder;
+    fixture::write_run(folder.path(), {});
+    scale_column(folder.path() / "curve.csv", 5, 1e-3);  // ticks such as -0.0002
+    for (const std::size_t column : {3u, 5u, 6u, 7u})
+        scale_column(folder.path() / "energy.csv", column, 2e3);  // and such as 200000
+    const std::string page = fixture::read_file(write_report(folder.path()));
+    const std::regex rotated(R"(translate\(([-0-9.]+),[-0-9.]+\) rotate\((?:-90|270))");
+    std::size_t found = 0;
+    for (std::sregex_iterator it(page.begin(), page.end(), rotated), end; it != end; ++it, ++found)
+        EXPECT_GE(std::stod((*it)[1]), 12) << "the baseline of letters 10 px high";
+    EXPECT_EQ(found, 7U);  // two of the stress-strain curve, one of each other figure
+}
+
+TEST(Report, SaysWhereARunEndedBeforeTheServosCount) {
+    const TestFolder folder;
+    fixture::write_run(folder.path(), {});
+    scale_column(folder.path() / "curve.csv", 0, 0.04);
+    const std::string page = fixture::read_file(write_report(folder.path()));
+    EXPECT_EQ(fixture::occurrences(page, "the run ended before 0.1 % of strain"), 2U);
+    EXPECT_THAT(page, Not(HasSubstr("largest after 0.1 % of strain")));
 }
 
 TEST(Report, RefusesCompanionsAtTheSameConfiningStress) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
 
 namespace grainfield::triaxial::report {
 namespace {
@@ -35,6 +36,14 @@ TEST(Text, SaysDurations) {
     EXPECT_EQ(duration(252), "4 min 12 s");
     EXPECT_EQ(duration(3900), "1 h 05 min");
     EXPECT_EQ(duration(std::numeric_limits<double>::quiet_NaN()), "not a number");
+}
+
+TEST(Text, ShortensByCharacters) {
+    EXPECT_EQ(shortened("abcdef", 6), "abcdef");
+    EXPECT_EQ(shortened("abcdefg", 6), "ab…efg");
+    EXPECT_EQ(shortened("äöüßäöü", 4), "ä…öü") << "no character is cut";
+    EXPECT_EQ(characters("σ₃ = 1"), 6u);
+    EXPECT_EQ(characters(shortened(std::string(500, 'x'), 40)), 40u);
 }
 
 TEST(Text, EscapesHtml) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -45,6 +46,9 @@ Shard parse_shard(const std::string& text) {
 
 /// A line a case: how many rows, and the means.
 void print_cases(const std::vector<CampaignCase>& cases, const std::map<RowPlace, Row>& rows) {
+    std::size_t widest = 0;  // longer names than that stand out of the column
+    for (const CampaignCase& one : cases)
+        widest = std::max(widest, std::min<std::size_t>(one.name.size(), 60));
     for (std::size_t c = 0; c < cases.size(); ++c) {
         std::size_t failed = 0, without_peak = 0;
         std::vector<double> peak, E50;
@@ -62,7 +66,7 @@ void print_cases(const std::vector<CampaignCase>& cases, const std::map<RowPlace
             text +=
                 fmt::format("; means: peak {} kPa, E50 {} MPa", mean_text(peak), mean_text(E50));
         if (without_peak > 0) text += fmt::format("; {} without a peak", without_peak);
-        print_row(cases[c].name, text);
+        print_row(fmt::format("{:<{}}", cases[c].name, widest), text);
     }
 }
 

@@ -10,7 +10,9 @@
 namespace grainfield::triaxial {
 
 inline void print_row(std::string_view name, std::string_view value) {
-    write_result(fmt::format("{:<24}{}\n", name, value));
+    constexpr std::size_t column = 24;
+    const std::string_view gap = name.size() < column - 1 ? "" : "  ";  // longer names
+    write_result(fmt::format("{:<{}}{}{}\n", name, column, gap, value));
 }
 
 }  // namespace grainfield::triaxial

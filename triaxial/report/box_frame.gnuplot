@@ -22,8 +22,8 @@ set style fill solid noborder
 set palette model RGB file '$palette' using 1:2:3:4
 set cbrange [lowest:highest]
 if (logarithmic) { set logscale cb }
-set cbtics out scale 0.5
+set cbtics out scale 0.5 textcolor rgb ink
 if (|$ticks| > 0) { set cbtics () }
 set for [k=1:|$ticks|] cbtics add (at($ticks[k], 1))
-set cblabel quantity offset 0.8,0
+set cblabel quantity offset 0.1,0
 set colorbox user origin screen share+0.012,0.3 size screen bar_width,0.4 noborder

@@ -40,7 +40,8 @@ ServoError servo_error(const Curve& curve, double confining_stress) {
         for (const double lateral : {curve.lateral_stress_x[i], curve.lateral_stress_z[i]}) {
             const double off = lateral / confining_stress - 1.0;
             sum += off * off;
-            if (curve.axial_strain[i] > 0.001) error.max = std::max(error.max, std::abs(off));
+            if (curve.axial_strain[i] > 0.001)
+                error.max = std::max(error.max.value_or(0.0), std::abs(off));
         }
     }
     error.rms = std::sqrt(sum / (2.0 * static_cast<double>(curve.size())));

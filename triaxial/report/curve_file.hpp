@@ -2,6 +2,7 @@
 // curve.csv of a triaxial run: the shear stage, one row a record.
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace grainfield::triaxial::report {
@@ -25,7 +26,9 @@ struct Curve {
 /// records.
 struct ServoError {
     double rms = 0;  ///< over the confining stress [-]
-    double max = 0;  ///< the same, largest at any record after 0.1 % of strain [-]
+    /// The same, largest at any record after 0.1 % of strain; none where there is no such record
+    /// [-].
+    std::optional<double> max;
 };
 
 /// Reads curve.csv. Throws FileError as read_number_table().

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "triaxial/report/figures.hpp"
 #include "triaxial/report/text.hpp"
 
@@ -15,7 +17,7 @@ Figure energy_figure(const Gnuplot& gnuplot, const RunFolder& run) {
         gnuplot.svg("figure_energy", "energy", "Work of the walls and where it went", {1000, 340},
                     {{"energies", energies},
                      {"last", run.energies.back().time},
-                     {"began", run.summary.optional_number("shear_began_s").value_or(0.0)}});
+                     {"began", run.summary.optional_number("shear_began_s").value_or(NAN)}});
     return {picture,
             fmt::format("The energy ledger from the start of the isotropic stage, in which loose "
                         "spheres are slowed (counted as damping). The sum closes to {} % of the "

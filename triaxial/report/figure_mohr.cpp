@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "triaxial/report/axis_ticks.hpp"
 #include "triaxial/report/figures.hpp"
 #include "triaxial/report/text.hpp"
 
@@ -30,13 +31,26 @@ double degrees(double radians) {
     return radians * 180 / std::numbers::pi;
 }
 
+/// As the legend has it, in kPa as the axes.
+std::string envelope_text(const Envelope& envelope, bool through_origin) {
+    const std::string slope =
+        fmt::format("σ tan {}°", significant(degrees(envelope.friction_angle), 3));
+    const std::string intercept = fixed(1e-3 * std::abs(envelope.intercept), 2);
+    if (through_origin || intercept == fixed(0, 2)) return "τ = " + slope;
+    return envelope.intercept < 0 ? fmt::format("τ = {} − {} kPa", slope, intercept)
+                                  : fmt::format("τ = {} kPa + {}", intercept, slope);
+}
+
 std::string caption_text(const Envelope& envelope, const MohrCircle& run, std::size_t circles) {
     if (circles == 1)
         return fmt::format(
             "Mohr circle at peak strength with the envelope of a cohesionless soil, sin φ = "
-            "<i>q</i>/(<i>q</i> + 2σ<sub>3</sub>): φ = {}° ({} rad). Whether the intercept is zero "
-            "can only be told from runs at other confining stresses.",
-            significant(degrees(envelope.friction_angle), 3), significant(envelope.friction_angle));
+            "<i>q</i>/(<i>q</i> + 2σ<sub>3</sub>): φ = {}° ({} rad), σ<sub>3</sub> = {} kPa, "
+            "σ<sub>1</sub> = {} kPa. Whether the intercept is zero can only be told from runs at "
+            "other confining stresses.",
+            significant(degrees(envelope.friction_angle), 3), significant(envelope.friction_angle),
+            significant(1e-3 * run.confining_stress),
+            significant(1e-3 * (run.confining_stress + run.deviator_stress)));
     return fmt::format(
         "Mohr circles at peak strength of {} runs with the straight line fitted through all, "
         "<i>t</i> = <i>a</i> + <i>s</i> sin φ: φ = {}° ({} rad), intercept <i>c</i> = {} kPa, "
@@ -76,22 +90,37 @@ Figure mohr_figure(const Gnuplot& gnuplot, const MohrCircle& run,
     const double minor = run.confining_stress, major = minor + run.deviator_stress;
 
     const double bottom = std::min(0.0, 1.05 * c);
-    const double top = std::max(1.15 * highest, 1.02 * (c + slope * right));
-
-    // Both axes have one scale: the picture is as high as that needs.
-    const double plot_height = std::min(0.84 * 520 * (top - bottom) / (right - left), 600.0);
-    const double height = plot_height + 12 + 58;
+    // Both axes have one scale: the picture is as high as that needs. Flat circles get room above
+    // them, for a vertical axis that can be read.
+    constexpr double plot_width = 0.84 * 520, least_height = 160;  // [px]
+    const double top = std::max({1.15 * highest, 1.02 * (c + slope * right),
+                                 bottom + least_height / plot_width * (right - left)});
+    const double plot_height = std::min(plot_width * (top - bottom) / (right - left), 600.0);
+    std::vector<std::string> names;  // one circle needs none
+    for (const MohrCircle& circle : circles)
+        names.push_back(companions.empty()
+                            ? ""
+                            : fmt::format("{}, σ₃ = {} kPa", shortened(circle.name, 40),
+                                          significant(1e-3 * circle.confining_stress, 3)));
+    const std::size_t rows = companions.empty() ? 1 : circles.size() + 1;
+    const double legend = 14 + 22.0 * static_cast<double>(rows);            // [px]
+    const int intervals = std::max(2, static_cast<int>(plot_height / 40));  // of the vertical axis
+    const double height = plot_height + legend + 58;
+    // More circles, and narrow ones, leave no room for the stresses.
+    const double diameter = 2e-3 * run.radius() * plot_width / (right - left);  // [px]
     return {gnuplot.svg("figure_mohr", "mohr",
                         "Mohr circles at peak strength with the failure envelope",
                         {520, static_cast<int>(height)},
                         {{"circles", all},
-                         {"circles", circles.size()},
+                         {"name", names},
+                         {"step", round_step(top - bottom, intervals)},
+                         {"labelled", companions.empty() && diameter > 220},
                          {"touch", touch},
                          {"left", left},
                          {"right", right},
                          {"bottom", bottom},
                          {"top", top},
-                         {"upper", 1 - 12 / height},
+                         {"upper", 1 - legend / height},
                          {"lower", 58 / height},
                          {"intercept", c},
                          {"slope", slope},
@@ -99,8 +128,7 @@ Figure mohr_figure(const Gnuplot& gnuplot, const MohrCircle& run,
                          {"minor_text", significant(1e-3 * minor)},
                          {"major", 1e-3 * major},
                          {"major_text", significant(1e-3 * major)},
-                         {"intercept_text", companions.empty() ? "0" : fixed(c, 2)},
-                         {"angle_text", significant(degrees(envelope.friction_angle), 3)}}),
+                         {"envelope", envelope_text(envelope, companions.empty())}}),
             caption_text(envelope, run, circles.size())};
 }
 

@@ -13,23 +13,25 @@ Figure servo_figure(const Gnuplot& gnuplot, const RunFolder& run) {
     const Curve& curve = run.curve;
     const std::size_t stride = curve.size() / 3000 + 1;
     DataBlock servo;
-    double reach = 0.8;  // of the vertical axis on both sides [%]
+    double low = -0.6, high = 0.6;  // ends of the vertical axis: the band at least [%]
     for (std::size_t i = 0; i < curve.size(); i += stride) {
         const double x = 100 * (curve.lateral_stress_x[i] / target - 1);
         const double z = 100 * (curve.lateral_stress_z[i] / target - 1);
         servo.row(100 * curve.axial_strain[i], x, z);
-        reach = std::max({reach, 1.1 * std::abs(x), 1.1 * std::abs(z)});
+        low = std::min({low, 1.1 * x, 1.1 * z});
+        high = std::max({high, 1.1 * x, 1.1 * z});
     }
     const double last = 100 * std::max(std::ranges::max(curve.axial_strain), 1e-6);
     const ServoError error = servo_error(curve, target);
     return {
         gnuplot.svg("figure_servo", "servo", "Lateral stresses over their target during shear",
-                    {1000, 300}, {{"servo", servo}, {"last", last}, {"reach", reach}}),
+                    {1000, 300}, {{"servo", servo}, {"last", last}, {"low", low}, {"high", high}}),
         fmt::format("Lateral stresses during shear against their target of {} kPa; the band is "
-                    "± 0.5 %. Over the recorded points: RMS {} %, largest after 0.1 % of strain "
-                    "{} %.",
+                    "± 0.5 %. Over the recorded points: RMS {} %{}.",
                     significant(1e-3 * target), significant(100 * error.rms, 2),
-                    significant(100 * error.max, 2))};
+                    error.max ? fmt::format(", largest after 0.1 % of strain {} %",
+                                            significant(100 * *error.max, 2))
+                              : "; the run ended before 0.1 % of strain")};
 }
 
 }  // namespace grainfield::triaxial::report

@@ -1,14 +1,11 @@
 # Stresses over depth in the settled sample. $profile: depth [m], stress measured vertical, along x
 # and z, in theory vertical and horizontal [kPa].
-set lmargin at screen 0.135
-set rmargin at screen 0.975
-set tmargin at screen 0.97
-set bmargin at screen 0.145
+load 'legend_above.gnuplot'
+set key maxrows 2
 set xrange [0:*]
 set yrange [deepest:0]
 set xlabel 'Stress (kPa)' offset 0,0.3
 set ylabel 'Depth (m)' offset 0.5,0
-set key top right
 plot $profile using 5:1 with lines lw 1.6 lc rgb main title 'γ{/:Italic z}', \
      $profile using 2:1 with points pt 7 ps 0.6 lc rgb main title 'vertical', \
      $profile using 6:1 with lines lw 1.6 dt (6,4) lc rgb contrast title '{/:Italic K}_0γ{/:Italic z}', \

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "triaxial/report/axis_ticks.hpp"
 #include "triaxial/report/figures.hpp"
 #include "triaxial/report/text.hpp"
 
@@ -22,17 +23,16 @@ DataBlock curve_data(const Curve& curve) {
     return rows;
 }
 
-/// From the least to the greatest value [%].
-double curve_span(const std::vector<double>& strain) {
-    const auto [low, high] = std::ranges::minmax(strain);
-    return 100 * std::max(high - low, 1e-6);
-}
+/// One of the two vertical axes.
+struct VerticalAxis {
+    double step;         ///< of its ticks
+    std::size_t widest;  ///< label of a tick [-]
 
-/// A third of `span` or less, rounded to 1, 2 or 5 of its decade.
-double round_step(double span) {
-    const double step = span / 3, decade = std::pow(10, std::floor(std::log10(step)));
-    return decade * (step >= 5 * decade ? 5 : step >= 2 * decade ? 2 : 1);
-}
+    VerticalAxis(double low, double high, int intervals)
+        : step(round_step(high - low, intervals)),
+          // gnuplot may go on to the next tick at both ends.
+          widest(widest_label(low - step, high + step, step)) {}
+};
 
 }  // namespace
 
@@ -42,6 +42,10 @@ Figure stress_strain_figure(const Gnuplot& gnuplot, const RunFolder& run) {
     const double peak_strain = 100 * r.axial_strain_at_peak;
     const double half_strain = 100 * 0.5 * r.peak_deviator_stress / r.E50;
     const double last = 100 * std::max(std::ranges::max(run.curve.axial_strain), 1e-6);
+    const double floor_stress = std::min(0.0, 1.1e-3 * std::ranges::min(run.curve.deviator_stress));
+    const VerticalAxis stress(floor_stress, 1.16 * peak, 6);
+    const auto [least, most] = std::ranges::minmax(run.curve.volumetric_strain);
+    const VerticalAxis volumetric(100 * least, 100 * std::max(most, least + 1e-6), 4);
     DataBlock marks;
     marks.row(0, 0);
     marks.row(2 * half_strain, peak);
@@ -49,23 +53,24 @@ Figure stress_strain_figure(const Gnuplot& gnuplot, const RunFolder& run) {
     marks.row(half_strain, 0.5 * peak);
     marks.end_part();
     marks.row(peak_strain, peak);
-    const std::string picture = gnuplot.svg(
-        "figure_stress_strain", "stress_strain",
-        "Deviator stress and volumetric strain over axial strain", {520, 500},
-        {{"curve", curve_data(run.curve)},
-         {"marks", marks},
-         {"last", last},
-         {"floor_stress", std::min(0.0, 1.1e-3 * std::ranges::min(run.curve.deviator_stress))},
-         {"peak", peak},
-         {"peak_name", r.failure == Failure::peak      ? "peak"
-                       : r.failure == Failure::plateau ? "plateau"
-                                                       : "largest"},
-         {"peak_text", significant(peak)},
-         {"peak_strain", peak_strain},
-         {"peak_strain_text", significant(peak_strain, 3)},
-         {"half_strain", half_strain},
-         {"modulus_text", significant(1e-6 * r.E50)},
-         {"volumetric_step", round_step(curve_span(run.curve.volumetric_strain))}});
+    const std::string picture =
+        gnuplot.svg("figure_stress_strain", "stress_strain",
+                    "Deviator stress and volumetric strain over axial strain", {520, 520},
+                    {{"curve", curve_data(run.curve)},
+                     {"marks", marks},
+                     {"last", last},
+                     {"floor_stress", floor_stress},
+                     {"stress_step", stress.step},
+                     {"peak", peak},
+                     {"peak_name", r.failure == Failure::peak      ? "peak"
+                                   : r.failure == Failure::plateau ? "plateau"
+                                                                   : "largest"},
+                     {"peak_text", significant(peak)},
+                     {"peak_strain", peak_strain},
+                     {"peak_strain_text", significant(peak_strain, 3)},
+                     {"modulus_text", significant(1e-6 * r.E50)},
+                     {"volumetric_step", volumetric.step},
+                     {"widest", std::max(stress.widest, volumetric.widest)}});
     return {picture,
             fmt::format("Deviator stress and volumetric strain (contraction positive) over axial "
                         "strain. <i>E</i><sub>50</sub> is the secant to half the {}.",

@@ -100,8 +100,11 @@ Table accuracy_table(const RunFolder& run) {
     Builder b("Numerical accuracy", &run.summary);
     b.row("Lateral stress off its target, RMS", percent(rms.value_or(recorded.rms)),
           "aim: 0.5 %" + (rms ? "" : from_curve));
-    b.row("the same, largest", percent(max.value_or(recorded.max)),
-          "after 0.1 % of strain; aim: 1 %" + (max ? "" : from_curve));
+    if (recorded.max)
+        b.row("the same, largest", percent(max.value_or(*recorded.max)),
+              "after 0.1 % of strain; aim: 1 %" + (max ? "" : from_curve));
+    else
+        b.row("the same, largest", "–", "the run ended before 0.1 % of strain");
     b.number(
         "first_q_minimum_ratio", "Drop of <i>q</i> when shear begins",
         [](double v) { return percent(v); }, "over σ<sub>3</sub>; aim: not below −1 %");
@@ -137,11 +140,13 @@ Table field_table(const RunFolder& run) {
     b.number("field.mean_ratio_cells", "Mean of the blocks over μ", plain, "this realization");
     b.number("field.mean_ratio_expected", "the same, expected", plain,
              "local averages lower it (lognormal stiffness)");
-    b.number("field.covariance_error", "Largest covariance error", plain, "in units of γ");
+    b.number(
+        "field.covariance_error", "Largest covariance error",
+        [](double v) { return significant(v, 2); }, "in units of γ");
     if (run.summary.has("field.correlation_length")) {
         std::string lengths;
         for (const double theta : run.summary.numbers("field.correlation_length"))
-            lengths += (lengths.empty() ? "" : ", ") + significant(theta, 3);
+            lengths += fmt::format("{}{:.4g}", lengths.empty() ? "" : ", ", theta);
         b.row("Correlation lengths θ", lengths + " m");
     }
     return b.take();

@@ -34,7 +34,9 @@ void Page::tables(std::span<const Table> tables) {
 
 void Page::columns(std::string_view title, std::span<const std::string> header,
                    std::span<const std::vector<std::string>> rows) {
-    body_ += fmt::format("<table class=\"columns\">\n<caption>{}</caption>\n<thead><tr>", title);
+    body_ += fmt::format(
+        "<div class=\"scroll\"><table class=\"columns\">\n<caption>{}</caption>\n<thead><tr>",
+        title);
     for (const std::string& cell : header) body_ += fmt::format("<th scope=\"col\">{}</th>", cell);
     body_ += "</tr></thead>\n<tbody>\n";
     for (const std::vector<std::string>& row : rows) {
@@ -44,7 +46,7 @@ void Page::columns(std::string_view title, std::span<const std::string> header,
                             : fmt::format("<td>{}</td>", row[k]);
         body_ += "</tr>\n";
     }
-    body_ += "</tbody>\n</table>\n";
+    body_ += "</tbody>\n</table></div>\n";
 }
 
 void Page::figures(std::span<const Figure> figures, std::string_view layout) {

@@ -16,6 +16,7 @@ main { max-width: 1040px; margin: 0 auto; padding: 40px 24px 64px; }
 header { border-top: 3px solid var(--main); padding-top: 14px; margin-bottom: 26px; }
 h1, h2, .lead { font-family: Charter, "Bitstream Charter", "Source Serif 4", Georgia,
                 "Liberation Serif", "DejaVu Serif", serif; }
+.kicker, h1, h2, figcaption, p { overflow-wrap: anywhere; }
 .kicker { margin: 0; color: var(--main); font-size: 13px; letter-spacing: .04em; }
 h1 { font-size: 29px; line-height: 1.2; font-weight: 600; margin: 6px 0 10px; }
 .lead { font-size: 18px; line-height: 1.5; margin: 0; max-width: 52em; }
@@ -37,7 +38,8 @@ td { text-align: right; font-variant-numeric: tabular-nums; overflow-wrap: anywh
 table.columns { font-size: 13.5px; break-inside: auto; }
 table.columns th, table.columns td { padding: 4px 0 4px 14px; min-width: 0;
                                      overflow-wrap: normal; }
-table.columns th:first-child { padding-left: 0; }
+.scroll { overflow-x: auto; }
+table.columns th:first-child { padding-left: 0; min-width: 9em; overflow-wrap: anywhere; }
 table.columns thead th { text-align: right; color: var(--muted); vertical-align: bottom;
                          border-bottom: 1px solid var(--ink); }
 table.columns thead th:first-child { text-align: left; }
@@ -60,7 +62,9 @@ svg text, svg tspan { font-family: "Helvetica Neue", Helvetica, Arial, "Liberati
               min-width: 0; object-fit: contain; }
 .sample img:not(:only-child) { max-width: calc(50% - 12px); }
 pre { font-size: 12.5px; line-height: 1.45; background: var(--faint); border: 1px solid var(--line);
-      padding: 12px 14px; margin: 0; max-height: 420px; overflow: auto; }
+      padding: 12px 14px; margin: 0; max-height: 420px; overflow: auto;
+      white-space: pre-wrap; overflow-wrap: anywhere; }
+pre + dl { margin-top: 14px; }
 dl { columns: 2; column-gap: 40px; font-size: 12.5px; margin: 0; }
 dl div { display: flex; justify-content: space-between; gap: 16px; padding: 2px 0;
          border-bottom: 1px solid var(--line); break-inside: avoid; }
@@ -70,6 +74,10 @@ dd { margin: 0; text-align: right; overflow-wrap: anywhere; }
   main { padding: 22px 14px 40px; }
   .tables, dl { columns: 1; }
   .pair { grid-template-columns: minmax(0, 1fr); }
+  .wide .picture { overflow-x: auto; }
+  .wide svg { min-width: 680px; }
+  .sample .picture { flex-direction: column; align-items: center; }
+  .sample img:not(:only-child) { max-width: 100%; }
 }
 @media print {
   @page { size: A4; margin: 16mm 15mm; }
@@ -82,7 +90,7 @@ dd { margin: 0; text-align: right; overflow-wrap: anywhere; }
   table, table.columns { font-size: 9pt; }
   th small, figcaption { font-size: 8pt; }
   .sample img { max-height: 205mm; }
-  pre { max-height: none; overflow: visible; white-space: pre-wrap; font-size: 7.5pt; }
+  pre { max-height: none; overflow: visible; font-size: 7.5pt; }
   dl { font-size: 7.5pt; }
 }
 )css";

@@ -6,8 +6,17 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <vector>
 
 namespace grainfield::triaxial::report {
+namespace {
+
+/// UTF-8 has several bytes for some characters.
+bool begins_character(char byte) {
+    return (static_cast<unsigned char>(byte) & 0xc0) != 0x80;
+}
+
+}  // namespace
 
 std::string significant(double value, int digits) {
     if (!std::isfinite(value)) return "not a number";
@@ -37,6 +46,20 @@ std::string duration(double seconds) {
     const auto whole = static_cast<std::int64_t>(std::llround(seconds));
     if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
     return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+std::size_t characters(std::string_view text) {
+    return static_cast<std::size_t>(std::ranges::count_if(text, begins_character));
+}
+
+std::string shortened(std::string_view text, std::size_t most) {
+    std::vector<std::size_t> begins;
+    for (std::size_t at = 0; at < text.size(); ++at)
+        if (begins_character(text[at])) begins.push_back(at);
+    if (begins.size() <= most) return std::string(text);
+    const std::size_t behind = most / 2, front = most - 1 - behind;
+    return fmt::format("{}…{}", text.substr(0, begins[front]),
+                       text.substr(begins[begins.size() - behind]));
 }
 
 std::string escape(std::string_view text) {

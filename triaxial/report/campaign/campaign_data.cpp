@@ -10,6 +10,7 @@
 #include "triaxial/config/toml_file.hpp"
 #include "triaxial/realization/failure.hpp"
 #include "triaxial/report/json_file.hpp"
+#include "triaxial/report/natural_order.hpp"
 
 namespace grainfield::triaxial::report {
 namespace {
@@ -75,10 +76,12 @@ CampaignData read_campaign_data(const fs::path& folder) {
     CampaignData data;
     data.path = folder;
     const JsonFile json(folder / "campaign.json");
+    auto named = json.members("cases");
+    std::ranges::sort(named, natural_less, [](const auto& one) { return one.first; });
     data.version = json.optional_text("version").value_or("unknown");
     data.machines = json.texts("machines");
     std::map<std::string, std::size_t> index;
-    for (const auto& [name, one] : json.members("cases")) {
+    for (const auto& [name, one] : named) {
         CaseData& made = data.cases.emplace_back();
         index[name] = data.cases.size() - 1;
         made.name = name;

@@ -28,7 +28,7 @@ struct CampaignData {
     std::filesystem::path path;
     std::string version;
     std::vector<std::string> machines;  ///< that worked on it
-    std::vector<CaseData> cases;        ///< by name
+    std::vector<CaseData> cases;        ///< by name, numbers in it by their size
     std::vector<std::string> failures;  ///< case, realization and reason of each, as text
     std::vector<std::string> varying;   ///< config keys that are not the same in all cases
     double wall_seconds = 0;            ///< of all rows [s]
@@ -51,8 +51,8 @@ struct Quantity {
 };
 
 inline constexpr Quantity quantities[] = {
-    {"e50", "modulus <i>E</i><sub>50</sub>", "E_{50}", "MPa", 1e-6, &triaxial::Row::E50},
-    {"peak", "peak deviator stress Δ<i>σ</i><sub>f</sub>", "Δσ_f", "kPa", 1e-3,
+    {"e50", "modulus <i>E</i><sub>50</sub>", "{/:Italic E}_{50}", "MPa", 1e-6, &triaxial::Row::E50},
+    {"peak", "peak deviator stress Δ<i>σ</i><sub>f</sub>", "Δ{/:Italic σ}_f", "kPa", 1e-3,
      &triaxial::Row::peak_deviator_stress}};
 
 /// Values of a quantity over the rows of a case, by realization [its unit].

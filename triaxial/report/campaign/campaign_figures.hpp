@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "triaxial/report/campaign/axis_name.hpp"
 #include "triaxial/report/campaign/case_statistics.hpp"
 #include "triaxial/report/figures.hpp"
 #include "triaxial/statistics/distributions.hpp"
@@ -34,14 +35,6 @@ struct Trend {
     std::string name;  ///< what the other keys are; may be empty
     std::vector<Point> points;
 };
-
-/// A key's name and unit for an axis, and the factor from SI.
-struct AxisName {
-    std::string text;
-    double scale = 1;
-    std::optional<Markup> markup = std::nullopt;  ///< the same, where it is ours
-};
-AxisName axis_name(const std::string& key);
 
 /// Mean and deviation against a key that varies, with 95 % intervals and the deterministic values
 /// (Figs. 9, 10, 13 and 14); `q` is the quantity's number.

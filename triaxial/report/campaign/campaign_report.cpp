@@ -17,16 +17,21 @@ namespace {
 using namespace report;
 
 constexpr const char* missing = "–";
+constexpr std::size_t least_drawn = 3;  // runs of a case: two are one point of a running mean
 
 std::string text(const std::optional<double>& value, int digits = 4) {
     return value ? significant(*value, digits) : missing;
 }
-std::string text(const std::optional<statistics::Interval>& interval) {
-    return interval ? significant(interval->lower) + " … " + significant(interval->upper) : missing;
+std::string text(const std::optional<statistics::Interval>& interval, int digits) {
+    if (!interval) return missing;
+    // Blanks that do not break: the two ends stay in one line.
+    return fmt::format("{}\u00a0…\u00a0{}", significant(interval->lower, digits),
+                       significant(interval->upper, digits));
 }
 template <class Test>
 std::string p_text(const std::optional<Test>& test) {
-    return test ? significant(test->p_value, 2) : missing;
+    if (!test) return missing;
+    return test->p_value < 1e-3 ? "&lt;\u00a00.001" : significant(test->p_value, 2);
 }
 
 void add_moments(Page& page, const CampaignData& data, const CampaignStatistics& all,
@@ -41,16 +46,18 @@ void add_moments(Page& page, const CampaignData& data, const CampaignStatistics&
         rows.push_back({escape(data.cases[c].name), count(static_cast<double>(s.count)),
                         count(static_cast<double>(data.cases[c].failed)),
                         count(static_cast<double>(data.cases[c].without_peak)),
-                        text(s.deterministic), text(s.mean), text(s.mean_interval),
-                        text(s.deviation, 3), text(s.deviation_interval), text(s.variation, 3),
-                        text(s.variation_interval)});
+                        text(s.deterministic), text(s.mean), text(s.mean_interval, 4),
+                        text(s.deviation, 3), text(s.deviation_interval, 3), text(s.variation, 3),
+                        text(s.variation_interval, 3)});
     }
     page.columns(fmt::format("{}, {}", quantity.name, quantity.unit), header, rows);
 }
 
-void add_fits(Page& page, const CampaignData& data, const CampaignStatistics& all, std::size_t q) {
-    const std::vector<std::string> header{"case",    "best by AIC", "lognormal", "normal", "gamma",
-                                          "Weibull", "χ² p",        "KS p",      "AD p"};
+/// False where no case has runs enough.
+bool add_fits(Page& page, const CampaignData& data, const CampaignStatistics& all, std::size_t q) {
+    const std::vector<std::string> header{"case",      "best by AIC", "lognormal",
+                                          "normal",    "gamma",       "Weibull",
+                                          "χ²\u00a0p", "KS\u00a0p",   "AD\u00a0p"};
     std::vector<std::vector<std::string>> rows;
     for (std::size_t c = 0; c < all.size(); ++c) {
         const CaseStatistics& s = all[c][q];
@@ -69,10 +76,28 @@ void add_fits(Page& page, const CampaignData& data, const CampaignStatistics& al
             row.push_back(p);
         rows.push_back(std::move(row));
     }
-    if (rows.empty()) return;
+    if (rows.empty()) return false;
     page.columns(fmt::format("{}: AIC above the best fit, and tests of the lognormal distribution",
                              quantities[q].name),
                  header, rows);
+    return true;
+}
+
+void add_distributions(Page& page, const CampaignData& data, const CampaignStatistics& all) {
+    page.section("Distributions");
+    bool any = false;
+    for (std::size_t q = 0; q < std::size(quantities); ++q) any |= add_fits(page, data, all, q);
+    if (any)
+        page.paragraph(
+            "Fits by maximum likelihood. χ²: bins of equal probability; KS: Kolmogorov–Smirnov "
+            "with estimated parameters, p by parametric bootstrap; AD: Anderson–Darling with "
+            "estimated parameters (Stephens). A small p speaks against the lognormal distribution.",
+            "note");
+    else
+        page.paragraph(fmt::format("Distributions are fitted to {} runs of a case or more, whose "
+                                   "results differ and are above zero: no case has them.",
+                                   least_fitted),
+                       "note");
 }
 
 void add_trends(Page& page, const Gnuplot& gnuplot, const CampaignData& data,
@@ -85,16 +110,24 @@ void add_trends(Page& page, const Gnuplot& gnuplot, const CampaignData& data,
             figures.push_back(trend_figure(gnuplot, fmt::format("trend{}{}", k, quantities[q].id),
                                            q, axis_name(data.varying[k]), trends, all));
     }
-    if (figures.empty()) return;
+    const bool all_begun =
+        std::ranges::all_of(data.cases, [](const CaseData& one) { return one.rows.size() >= 2; });
+    if (figures.empty() && (all_begun || data.varying.empty())) return;
     page.section("Over the cases");
     page.figures(figures, "wide");
+    if (!all_begun)
+        page.paragraph(
+            "Cases of which fewer than two runs are done have no deviation and are left out.",
+            "note");
 }
 
 void add_case(Page& page, const Gnuplot& gnuplot, const CaseData& one, std::size_t c,
               const std::array<CaseStatistics, std::size(quantities)>& statistics) {
     page.section(fmt::format("Case {}", escape(one.name)));
-    if (one.rows.size() < 2) {
-        page.paragraph("Fewer than two runs are done: there is nothing to draw yet.", "note");
+    if (one.rows.size() < least_drawn) {
+        page.paragraph(fmt::format("Figures of a case are drawn from {} runs on; done: {}.",
+                                   least_drawn, one.rows.size()),
+                       "note");
         return;
     }
     for (std::size_t q = 0; q < std::size(quantities); ++q) {
@@ -109,11 +142,21 @@ void add_case(Page& page, const Gnuplot& gnuplot, const CaseData& one, std::size
         page.figures(
             std::array{convergence_figure(gnuplot, id + "run", quantity, values, s.deterministic)},
             "wide");
-        if (s.fits.empty()) continue;
+        if (s.fits.empty()) {
+            if (one.rows.size() >= least_fitted)
+                page.paragraph(
+                    fmt::format("Not every {} is above zero: nothing is fitted.", quantity.name),
+                    "note");
+            continue;
+        }
         page.figures(std::array{histogram_figure(gnuplot, id + "bins", quantity, values, s.fits),
                                 probability_figure(gnuplot, id + "pp", quantity, values,
                                                    *fit_of(s, statistics::Family::lognormal))});
     }
+    if (one.rows.size() < least_fitted)
+        page.paragraph(fmt::format("Histograms and P–P plots are drawn from {} runs on; done: {}.",
+                                   least_fitted, one.rows.size()),
+                       "note");
 }
 
 std::string lead(const CampaignData& data) {
@@ -122,9 +165,10 @@ std::string lead(const CampaignData& data) {
         done += one.rows.size();
         failed += one.failed;
     }
-    return fmt::format("{} realizations over {} case{} are done, {} failed; {} of computing time.",
-                       count(static_cast<double>(done)), data.cases.size(),
-                       data.cases.size() == 1 ? "" : "s", failed, duration(data.wall_seconds));
+    return fmt::format("{} realization{} over {} case{} {} done, {} failed; {} of computing time.",
+                       count(static_cast<double>(done)), done == 1 ? "" : "s", data.cases.size(),
+                       data.cases.size() == 1 ? "" : "s", done == 1 ? "is" : "are", failed,
+                       duration(data.wall_seconds));
 }
 
 /// Runs without a peak bias the statistics: they are counted where nobody can miss it.
@@ -158,13 +202,7 @@ std::string campaign_page(const CampaignData& data, const CampaignStatistics& al
         "(COV) bootstrap intervals (BCa, 10,000 resamples). The deterministic run has no random "
         "field. A single run scatters by 1–2 % when its start positions change in the last digit.",
         "note");
-    page.section("Distributions");
-    for (std::size_t q = 0; q < std::size(quantities); ++q) add_fits(page, data, all, q);
-    page.paragraph(
-        "Fits by maximum likelihood. χ²: bins of equal probability; KS: Kolmogorov–Smirnov with "
-        "estimated parameters, p by parametric bootstrap; AD: Anderson–Darling with estimated "
-        "parameters (Stephens). A small p speaks against the lognormal distribution.",
-        "note");
+    add_distributions(page, data, all);
     add_trends(page, gnuplot, data, all);
     for (std::size_t c = 0; c < data.cases.size(); ++c)
         add_case(page, gnuplot, data.cases[c], c, all[c]);

@@ -24,7 +24,7 @@ CaseStatistics case_statistics(const CaseData& one, const Quantity& quantity) {
     s.variation = statistics::coefficient_of_variation(values);
     s.deviation_interval = statistics::bootstrap_interval_of_deviation(values);
     s.variation_interval = statistics::bootstrap_interval_of_variation(values);
-    if (values.size() < 8) return s;
+    if (values.size() < least_fitted) return s;
     s.fits = statistics::fits(values);
     const statistics::Fit* lognormal = fit_of(s, statistics::Family::lognormal);
     s.chi_square = statistics::chi_square_test(values, *lognormal);

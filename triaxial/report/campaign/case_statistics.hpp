@@ -13,13 +13,16 @@
 
 namespace grainfield::triaxial::report {
 
+/// Runs of a case from which on distributions are fitted [-].
+inline constexpr std::size_t least_fitted = 8;
+
 /// Empty where there are too few values (see statistics/).
 struct CaseStatistics {
     std::size_t count = 0;                                       ///< values [-]
     std::optional<double> mean, deviation, variation, skewness;  ///< variation, skewness [-]
     std::optional<statistics::Interval> mean_interval, deviation_interval, variation_interval;
     std::optional<double> deterministic;
-    std::vector<statistics::Fit> fits;  ///< best first; none below eight values
+    std::vector<statistics::Fit> fits;  ///< best first; none below least_fitted values
     // Of the lognormal distribution.
     std::optional<statistics::ChiSquareTest> chi_square;
     std::optional<statistics::DistanceTest> kolmogorov_smirnov, anderson_darling;

@@ -16,7 +16,9 @@ Figure histogram_figure(const Gnuplot& gnuplot, const std::string& id, const Qua
         bins.row(0.5 * (histogram->edges[k] + histogram->edges[k + 1]), histogram->densities[k],
                  histogram->edges[k + 1] - histogram->edges[k]);
     const double from = histogram->edges.front(), to = histogram->edges.back();
-    const double low = from - 0.15 * (to - from), high = to + 0.15 * (to - from);
+    // What has no value below zero has no axis there.
+    const double room = 0.15 * (to - from);
+    const double low = from >= 0 ? std::max(from - room, 0.0) : from - room, high = to + room;
     constexpr int points = 200;
     for (int k = 0; k <= points; ++k) {
         const double x = low + (high - low) * k / points;
@@ -30,7 +32,7 @@ Figure histogram_figure(const Gnuplot& gnuplot, const std::string& id, const Qua
         family.emplace_back(name(fit.family));
         aic.push_back(fit.aic() - fits.front().aic());
     }
-    return {gnuplot.svg("figure_histogram", id, "Histogram with fitted distributions", {640, 420},
+    return {gnuplot.svg("figure_histogram", id, "Histogram with fitted distributions", {520, 420},
                         {{"bins", bins},
                          {"fits", curves},
                          {"family", family},

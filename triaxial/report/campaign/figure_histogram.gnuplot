@@ -5,7 +5,8 @@ set yrange [0:*]
 set xlabel symbol.' ('.unit.')' offset 0,0.3
 set ylabel 'Probability density (1/'.unit.')' offset 0.5,0
 set style fill solid 0.5 border lc rgb '#ffffff'
-set key above right maxrows 2
+load 'legend_above.gnuplot'
+set key maxrows 2
 asked(f) = family[f] eq 'lognormal'
 width(f) = asked(f) ? 2.4 : 1.3
 dash(f) = asked(f) ? 1 : f + 1

@@ -12,7 +12,7 @@ Figure probability_figure(const Gnuplot& gnuplot, const std::string& id, const Q
     DataBlock points;
     for (const statistics::ProbabilityPoint& p : plot.points)
         points.row(p.empirical, p.fitted, p.lower, p.upper);
-    return {gnuplot.svg("figure_probability", id, "Probability-probability plot", {480, 420},
+    return {gnuplot.svg("figure_probability", id, "Probability-probability plot", {520, 420},
                         {{"points", points},
                          {"band", plot.simultaneous_half_width},
                          {"family", name(fit.family)}}),

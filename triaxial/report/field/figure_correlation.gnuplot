@@ -20,7 +20,7 @@ unset key
 do for [d=1:3] {
     set xrange [low[d]:high[d]]
     set xlabel 'Lag in {/:Italic '.axis[d:d].'} (m)' offset 0,0.3
-    set ylabel (d == 1 ? 'Estimated - exact (-)' : '') offset 1,0
+    set ylabel (d == 1 ? 'Estimated − exact (-)' : '') offset 1,0
     plot $correlation index d-1 using 1:($4-$3):($5-$3) with filledcurves lc rgb soft fs transparent solid 0.45 notitle, \
          0 with lines lw 1.6 lc rgb main notitle, \
          '' index d-1 using 1:($2-$3) with points pt 7 ps 0.45 lc rgb contrast notitle

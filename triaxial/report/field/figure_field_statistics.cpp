@@ -117,7 +117,7 @@ Figure cell_histogram_figure(const Gnuplot& gnuplot, const std::string& id,
         predicted.row(x / unit.size, density * unit.size);
     }
     const std::string name = property_name(property);
-    return {gnuplot.svg("figure_cell_histogram", id, "Histogram of the cells' " + name, {640, 420},
+    return {gnuplot.svg("figure_cell_histogram", id, "Histogram of the cells' " + name, {520, 400},
                         {{"bins", bins},
                          {"predicted", predicted},
                          {"low", check.first / unit.size},
@@ -141,7 +141,7 @@ Figure variance_figure(const Gnuplot& gnuplot, const std::string& id,
         const bool outside = r < map.low || r > map.high;
         if (!std::isnan(r) && (outside || c % stride == 0)) cells.row(c, r, outside ? 1 : 0);
     }
-    return {gnuplot.svg("figure_variance", id, "Variance of every cell", {640, 420},
+    return {gnuplot.svg("figure_variance", id, "Variance of every cell", {520, 400},
                         {{"cells", cells},
                          {"last", std::max<std::size_t>(map.ratio.size(), 2) - 1},
                          {"low", map.low},

@@ -2,7 +2,7 @@
 set xlabel 'Cell' offset 0,0.3
 set ylabel 'Variance over exact (-)' offset 1,0
 set xrange [0:last]
-set key above right maxrows 1
+load 'legend_above.gnuplot'
 plot low with lines lw 1.6 lc rgb ink title sprintf('%d %% band of all', band), \
      high with lines lw 1.6 lc rgb ink notitle, \
      single_low with lines dt 2 lc rgb muted title '95 % of one', \
