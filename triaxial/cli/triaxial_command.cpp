@@ -13,6 +13,7 @@
 #include "core/state/section_of.hpp"
 #include "triaxial/cli/commands.hpp"
 #include "triaxial/cli/print_row.hpp"
+#include "triaxial/cli/repeated_run.hpp"
 #include "triaxial/cli/run_lock.hpp"
 #include "triaxial/cli/triaxial_run.hpp"
 #include "triaxial/realization/failure.hpp"
@@ -93,6 +94,8 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
         drop_packing_in_progress(out);
     }
     handle_signals(OnSignal::stop_safely);
+    if (run.repeats > 0) return run_repeats(run, out, kernels, checkpoint, session);
+
     ResumableRun resumable(session.monitor, failed_state_file(out), checkpoint);
     Before before;
     const auto section =
@@ -147,6 +150,11 @@ void add_triaxial_command(CommandLine& line) {
                 "Packing to start from, any file of spheres; without one it is made");
     command.add("--realization", arguments->realization,
                 "Which realization of the field, 0 unless given");
+    command
+        .add("--repeats", arguments->repeats,
+             "Runs the test so many times, from starts 1e-12 m apart: what a single run scatters "
+             "by")
+        .range(2, 1000);
     command.add("--out", arguments->out, "Folder for the results").required().take_last();
     arguments->checkpoints.add_to(command);
 }

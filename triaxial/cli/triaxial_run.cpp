@@ -79,6 +79,7 @@ Run prepare_run(const TriaxialArguments& arguments, const fs::path& checkpoint, 
     run.found = arguments.checkpoints.find(checkpoint, session.monitor);
     run.packing = arguments.packing;
     run.realization = arguments.realization.value_or(0);
+    run.repeats = arguments.repeats.value_or(0);
     if (run.realization < 0)
         throw InputError(
             fmt::format("--realization = {}: must be a whole number >= 0", run.realization));
@@ -97,6 +98,11 @@ Run prepare_run(const TriaxialArguments& arguments, const fs::path& checkpoint, 
             throw InputError(fmt::format("--realization = {}: the checkpoint is of {}",
                                          run.realization,
                                          before.at("realization").get<std::int64_t>()));
+        run.repeats = before.value("repeats", 0);
+        if (arguments.repeats && *arguments.repeats != run.repeats)
+            throw InputError(
+                fmt::format("--repeats = {}: the checkpoint is of {}", *arguments.repeats,
+                            run.repeats == 0 ? "a single run" : fmt::format("{}", run.repeats)));
         if (!packing.empty()) run.packing = packing;
         check_input(*run.found, "packing_checksum", packing);
         check_input(*run.found, "data_checksum", field_data(run.config));
@@ -120,6 +126,7 @@ Run prepare_run(const TriaxialArguments& arguments, const fs::path& checkpoint, 
     identity["packing_checksum"] = input_checksum(run.packing.value_or(""));
     identity["data_checksum"] = input_checksum(field_data(run.config));
     identity["realization"] = run.realization;
+    identity["repeats"] = run.repeats;
     run.identity = core::json_text(identity);
     return run;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What a test of `triaxial` is made of, and the files it leaves.
+// What a test of `triaxial` is made of, and the files it leaves: for one run and for repeats.
 
 #include <cstdint>
 #include <filesystem>
@@ -24,6 +24,7 @@ struct TriaxialArguments {
     std::optional<std::string> config;
     std::optional<std::string> packing;
     std::optional<std::int64_t> realization;
+    std::optional<std::int32_t> repeats;
     std::string out;
     CheckpointArguments checkpoints;
 };
@@ -37,6 +38,7 @@ struct Run {
     std::optional<std::string> packing;
     std::optional<core::SphereFile> spheres;  ///< of the packing, where they have been read
     std::int64_t realization = 0;
+    std::int32_t repeats = 0;  ///< 0: one run, not a series [-]
 };
 
 /// What was asked for, completed by the checkpoint where the run resumes. Throws InputError,
