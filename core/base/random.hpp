@@ -26,6 +26,7 @@ enum class Stream : std::uint32_t {
     bootstrap = 8,             ///< which values a resample of a campaign's results holds
     parametric_bootstrap = 9,  ///< samples of a fitted distribution, for p values
     field_data = 10,           ///< errors of the values that a field is conditioned on
+    repeated_start = 11,       ///< where the spheres of a repeated test stand, within 1e-12 m
 };
 
 /// Philox4x32 with ten rounds: the raw bijection of the counter under the key.

@@ -27,8 +27,8 @@ inline constexpr std::array foreign_files = std::to_array<std::string_view>(
      "config.toml", "report.html",
      // of a campaign, of `field`
      "results.csv", "deterministic.csv", "failures.csv", "statistics.csv", "campaign.json",
-     "NAME.toml", "HASH.h5", "field.csv", "verification.html", "correlation.csv", "histogram.csv",
-     "variance.csv", "scatter.csv",
+     "repeats.csv", "repeats.json", "NAME.toml", "HASH.h5", "field.csv", "verification.html",
+     "correlation.csv", "histogram.csv", "variance.csv", "scatter.csv",
      // of a test run
      "test_times.csv",
      // what a user brings

@@ -54,11 +54,15 @@ core::SolverOptions resumed_solver(const core::FoundCheckpoint& found, const std
 /// What leaves run() names the file of the state, or the checkpoint to go on from.
 class ResumableRun : public core::Monitor {
   public:
+    /// Stages are called by their names behind `prefix`.
     ResumableRun(core::Monitor& inner, std::filesystem::path state,
-                 const core::Checkpoint& checkpoint)
-        : inner_(inner), state_(std::move(state)), checkpoint_(checkpoint) {}
+                 const core::Checkpoint& checkpoint, std::string prefix = {})
+        : inner_(inner),
+          state_(std::move(state)),
+          checkpoint_(checkpoint),
+          prefix_(std::move(prefix)) {}
 
-    void begin(std::string_view stage) override { inner_.begin(stage); }
+    void begin(std::string_view stage) override { inner_.begin(prefix_ + std::string(stage)); }
     void progress(double done, std::int64_t steps, std::string_view detail) override {
         inner_.progress(done, steps, detail);
     }
@@ -84,6 +88,7 @@ class ResumableRun : public core::Monitor {
     core::Monitor& inner_;
     std::filesystem::path state_;
     const core::Checkpoint& checkpoint_;
+    std::string prefix_;
     bool state_written_ = false;
 };
 

@@ -10,12 +10,20 @@ namespace grainfield::triaxial {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+bool holds_finished(const fs::path& folder) {
+    return fs::exists(folder / "summary.json") || fs::exists(folder / "repeats.json");
+}
+
+}  // namespace
+
 fs::path failed_state_file(const fs::path& folder) {
-    return folder / (fs::exists(folder / "summary.json") ? "state.failed.h5" : "state.h5");
+    return folder / (holds_finished(folder) ? "state.failed.h5" : "state.h5");
 }
 
 fs::path packing_in_progress(const fs::path& folder) {
-    return folder / (fs::exists(folder / "summary.json") ? "packing.part.h5" : "packing.h5");
+    return folder / (holds_finished(folder) ? "packing.part.h5" : "packing.h5");
 }
 
 void drop_packing_in_progress(const fs::path& folder) {
@@ -26,7 +34,8 @@ void drop_packing_in_progress(const fs::path& folder) {
 
 void clear_earlier_run(const fs::path& folder) {
     std::error_code ignored;  // what cannot be removed is written over, or in nobody's way
-    for (const char* name : {"summary.json", "report.html", "state.h5", "state.failed.h5"})
+    for (const char* name : {"summary.json", "repeats.json", "repeats.csv", "report.html",
+                             "state.h5", "state.failed.h5"})
         fs::remove(folder / name, ignored);
 }
 

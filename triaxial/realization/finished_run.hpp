@@ -1,6 +1,7 @@
 #pragma once
 // A folder may hold a finished run while another one works in it: until that has its own results,
-// the files of the finished one stay as they are. summary.json says that a run is finished.
+// the files of the finished one stay as they are. summary.json says that a run is finished,
+// repeats.json that a series of repeats is.
 
 #include <filesystem>
 
@@ -17,9 +18,9 @@ std::filesystem::path packing_in_progress(const std::filesystem::path& folder);
 /// What an earlier run left of a packing in progress goes: another one begins.
 void drop_packing_in_progress(const std::filesystem::path& folder);
 
-/// From here on the folder is that of another run: without summary.json no run is finished, and
-/// what only an earlier one would have (report, failed states) goes. Call before results are
-/// written, summary.json last.
+/// From here on the folder is that of another run: without summary.json or repeats.json none is
+/// finished, and what only an earlier one would have (report, failed states) goes. Call before
+/// results are written, summary.json last.
 void clear_earlier_run(const std::filesystem::path& folder);
 
 /// The packing in progress and its .json take their names. FileError.

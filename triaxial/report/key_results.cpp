@@ -47,14 +47,14 @@ std::string plain(double value) {
 
 Table results_table(const RunFolder& run) {
     const KeyResults& r = run.results;
-    // docs/method.md, section 8: 1 to 2 % of a peak is chaos.
-    const std::string chaos = "± 1–2 % by chaos in a single realization (project’s measurements)";
+    const std::string scatter = "of one run; <code>triaxial --repeats</code> tells its scatter";
     Builder b("Results", &run.summary);
-    b.row(r.failure == Failure::peak      ? "Peak deviator stress <i>q</i>"
-          : r.failure == Failure::plateau ? "Deviator stress <i>q</i> of the plateau"
-                                          : "Largest deviator stress <i>q</i>",
-          significant(1e-3 * r.peak_deviator_stress) + " kPa",
-          r.failure == Failure::strain_limit ? "no peak before the run ended; " + chaos : chaos);
+    b.row(
+        r.failure == Failure::peak      ? "Peak deviator stress <i>q</i>"
+        : r.failure == Failure::plateau ? "Deviator stress <i>q</i> of the plateau"
+                                        : "Largest deviator stress <i>q</i>",
+        significant(1e-3 * r.peak_deviator_stress) + " kPa",
+        r.failure == Failure::strain_limit ? "no peak before the run ended; " + scatter : scatter);
     b.number("smoothed_peak_deviator_stress_Pa", "the same, smoothed over 0.2 % of strain",
              [](double v) { return significant(1e-3 * v) + " kPa"; });
     b.row("Axial strain there", percent(r.axial_strain_at_peak));

@@ -36,7 +36,9 @@ Failure failure(const JsonFile& summary) {
                                                               : Failure::strain_limit;
 }
 
-KeyResults key_results(const JsonFile& summary) {
+}  // namespace
+
+KeyResults results_of(const JsonFile& summary) {
     KeyResults results;
     results.confining_stress = positive(summary, "confining_stress_Pa");
     results.peak_deviator_stress = positive(summary, "peak_deviator_stress_Pa");
@@ -47,6 +49,8 @@ KeyResults key_results(const JsonFile& summary) {
     results.failure = failure(summary);
     return results;
 }
+
+namespace {
 
 std::string config_text(const std::filesystem::path& path) {
     std::string text = core::read_whole_file(path);
@@ -84,7 +88,7 @@ RunFolder read_run_folder(const std::filesystem::path& dir) {
                   .packing = std::nullopt,
                   .spheres = {},
                   .box = {}};
-    run.results = key_results(run.summary);
+    run.results = results_of(run.summary);
     if (std::filesystem::exists(dir / "packing.json")) run.packing.emplace(dir / "packing.json");
 
     const auto state = dir / "state.h5";
@@ -100,7 +104,7 @@ RunFolder read_run_folder(const std::filesystem::path& dir) {
 
 MohrCircle read_mohr_circle(const std::filesystem::path& dir) {
     const JsonFile summary(dir / "summary.json");
-    const KeyResults results = key_results(summary);
+    const KeyResults results = results_of(summary);
     auto name = dir.filename().empty() ? dir.parent_path().filename() : dir.filename();
     return {results.confining_stress, results.peak_deviator_stress, name.string(),
             soil_of(summary)};

@@ -41,6 +41,9 @@ struct RunFolder {
 /// Throws FileError naming the file that is missing or corrupt, and how.
 RunFolder read_run_folder(const std::filesystem::path& dir);
 
+/// Of summary.json. Throws FileError naming the key that is missing or wrong.
+KeyResults results_of(const JsonFile& summary);
+
 /// Only what the Mohr circle of a run needs, from its summary.json.
 MohrCircle read_mohr_circle(const std::filesystem::path& dir);
 

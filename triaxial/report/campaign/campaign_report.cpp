@@ -200,7 +200,9 @@ std::string campaign_page(const CampaignData& data, const CampaignStatistics& al
     page.paragraph(
         "Intervals of the mean are Student’s, those of deviation and coefficient of variation "
         "(COV) bootstrap intervals (BCa, 10,000 resamples). The deterministic run has no random "
-        "field. A single run scatters by 1–2 % when its start positions change in the last digit.",
+        "field. What a single run scatters by is in all of this; <code>triaxial --repeats</code> "
+        "tells "
+        "it.",
         "note");
     add_distributions(page, data, all);
     add_trends(page, gnuplot, data, all);
