@@ -78,6 +78,8 @@ TEST_P(LatticeFailure, SmallFccBlockMeetsRoweAndThornton) {
     }
 }
 
+// At f = 0.4 the bonds are 8 degrees from locking, where a turn changes tan(b + phi) by a factor of
+// 7 and what they had at f = 0.3 (5 in all) doubles.
 TEST_P(LatticeFailure, SmallRhombicBlockMeetsRowe) {
     for (double f : {0.1, 0.2, 0.3, 0.4}) {
         const double expected = rhombic_block(f, 3, 5);
@@ -86,10 +88,10 @@ TEST_P(LatticeFailure, SmallRhombicBlockMeetsRowe) {
                         .closed_form = "tan(60 deg) tan(60 deg + phi), times (2/3)(1 + 1/(2 "
                                        "sqrt(3))): the walls",
                         .source = "Rowe 1962, by virtual work",
-                        .tolerance = uniform_why},
+                        .tolerance = f < 0.4 ? uniform_why : uniform_why + ", close to locking"},
                        GetParam().name, expected,
                        stress_ratio_at_failure(rhombic(3, 5, 3), failing(f), table()),
-                       uniform * expected);
+                       (f < 0.4 ? 1 : 2) * uniform * expected);
     }
 }
 
