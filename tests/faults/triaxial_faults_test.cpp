@@ -99,5 +99,38 @@ TEST(TriaxialFaults, AtASpreadOfCallsFromThePackingOn) {
     resume_with_faults(test, chosen, tally);
 }
 
+// Of a packing that is given, what is known of it follows into the run's folder, and stays there.
+TEST(TriaxialFaults, KilledAfterItKeptThePackingsJson) {
+    const Workplace place;
+    std::vector<std::string> words{"pack", "--out", place.path("P.h5")};
+    words.insert(words.end(), small_packing.begin(), small_packing.end());
+    ASSERT_EQ(place.run(words).code, 0);
+    const std::vector<std::string> test{"triaxial",
+                                        "--packing",
+                                        place.path("P.h5"),
+                                        "--out",
+                                        place.path("run"),
+                                        "--set",
+                                        "triaxial.max_axial_strain=0.0005",
+                                        "--set",
+                                        "triaxial.strain_rate=1",
+                                        "--checkpoint-every",
+                                        "1e-9"};
+    fs::create_directory(place.path("run"));
+    const FaultyRun whole = run_with_fault(place, "run", test);
+    ASSERT_EQ(whole.outcome.code, 0) << whole.outcome.err;
+    const int kept =
+        first_call(whole.calls, [](const Call& c) { return c.is("rename", "/packing.json"); });
+    const int next = first_call(
+        whole.calls, [](const Call& c) { return applies("kill", c); }, kept + 1);
+    fs::remove_all(place.path("run"));
+    fs::create_directory(place.path("run"));
+    ASSERT_EQ(run_with_fault(place, "run", test, {next, "kill"}).outcome.code, 128 + SIGKILL);
+    const Outcome resumed = place.run(with(test, "--resume"));
+    ASSERT_EQ(resumed.code, 0) << resumed.err;
+    ASSERT_TRUE(place.has("run/packing.json"));
+    EXPECT_EQ(place.read("run/packing.json"), place.read("P.json"));
+}
+
 }  // namespace
 }  // namespace grainfield::program_tests

@@ -65,11 +65,15 @@ std::string config_text(const Run& run) {
         core::json_text(core::json_of_bytes(fs::path(*run.packing).filename().string())), run.used);
 }
 
-/// What an earlier run in the folder said of its packing is not true of this one's.
+/// What an earlier run in the folder said of its packing is not true of this one's. The same words
+/// are: the packing's own file, or this run was killed after it had kept them.
 void drop_other_packing(const fs::path& packing, const fs::path& out) {
+    const fs::path json = out / "packing.json", own = json_beside(packing);
+    if (fs::exists(json) && fs::exists(own) &&
+        core::read_whole_file(json) == core::read_whole_file(own))
+        return;
     std::error_code ignored;
-    const fs::path json = out / "packing.json";
-    if (!fs::equivalent(json_beside(packing), json, ignored)) fs::remove(json, ignored);
+    fs::remove(json, ignored);
 }
 
 }  // namespace
