@@ -86,15 +86,15 @@ void evaluate(Case& c, const Reference& reference) {
 
 std::string cases_csv(std::span<const Case> cases) {
     std::string rows =
-        "series,isa,precision,safety,mass_scaling,strain_rate_per_s,repeats,failed,threads,"
+        "series,isa,precision,safety,mass_scaling,repeats,failed,threads,"
         "wall_s,cpu_s,isotropic_steps,shear_steps,mean_step_s,inertia_ratio,inertial_number,"
         "lateral_rms_error,peak_Pa,peak_bias_percent,peak_scatter_percent,peak_one_run_percent,"
         "E50_Pa,E50_bias_percent,E50_scatter_percent,E50_one_run_percent,"
         "curve_of_mean_percent,curve_of_run_percent\n";
     for (const Case& c : cases) {
         const Setting& s = c.setting;
-        rows += fmt::format("{},{},{},{},{},{},{},1,", c.series->name, kernels_columns(s), s.safety,
-                            s.mass_scaling, s.strain_rate, c.runs.size(), c.failed);
+        rows += fmt::format("{},{},{},{},{},{},1,", c.series->name, kernels_columns(s), s.safety,
+                            s.mass_scaling, c.runs.size(), c.failed);
         if (c.runs.empty()) {
             rows += std::string(17, ',') + "\n";
             continue;
@@ -115,18 +115,18 @@ std::string cases_csv(std::span<const Case> cases) {
 
 std::string noise_csv(std::span<const Case> ensembles) {
     std::string rows =
-        "series,isa,precision,safety,mass_scaling,strain_rate_per_s,runs,peak_Pa,"
+        "series,isa,precision,safety,mass_scaling,runs,peak_Pa,"
         "peak_scatter_percent,peak_largest_percent,E50_Pa,E50_scatter_percent,"
         "E50_largest_percent,curve_of_run_percent\n";
     for (const Case& c : ensembles) {
         const Reference middle = mean_of(c.runs);
         Case own = c;  // against its own mean
         evaluate(own, middle);
-        rows += fmt::format("{},{},{},{},{},{},{:.5g},{:.3f},{:.3f},{:.5g},{:.3f},{:.3f},{:.3f}\n",
+        rows += fmt::format("{},{},{},{},{},{:.5g},{:.3f},{:.3f},{:.5g},{:.3f},{:.3f},{:.3f}\n",
                             c.series->name, kernels_columns(c.setting), c.setting.safety,
-                            c.setting.mass_scaling, c.setting.strain_rate, c.runs.size(),
-                            middle.peak, own.peak.scatter, own.peak.largest, middle.E50,
-                            own.E50.scatter, own.E50.largest, own.curve_of_run);
+                            c.setting.mass_scaling, c.runs.size(), middle.peak, own.peak.scatter,
+                            own.peak.largest, middle.E50, own.E50.scatter, own.E50.largest,
+                            own.curve_of_run);
     }
     return rows;
 }

@@ -3,8 +3,8 @@
 //
 // Results of a granular sample are chaotic: two runs that differ by 1e-12 m in the start positions
 // end with peaks some per cent apart. So nothing is compared with a single run. The reference is
-// the mean over an ensemble of disturbed runs with a short step, real masses, double precision and
-// the slowest rate; its spread is the noise floor.
+// the mean over an ensemble of disturbed runs with a quarter of the default step, real masses and
+// double precision; its spread is the noise floor.
 
 #include <span>
 #include <string>

@@ -35,7 +35,7 @@ std::vector<Point> pareto_front(std::vector<Point> points) {
     return front;
 }
 
-/// Time, error, point type and strain rate, a row a case; a blank row between groups that a line
+/// Time, error, point type and mass scaling, a row a case; a blank row between groups that a line
 /// connects: cases that differ in safety alone.
 void add_points(std::span<const Case> cases, Deviation Case::*result, double lowest,
                 DataBlock& rows) {
@@ -48,7 +48,7 @@ void add_points(std::span<const Case> cases, Deviation Case::*result, double low
             if (s != c.setting) rows.end_row();
         }
         rows.row(c.cpu_seconds, std::max((c.*result).one_run, lowest), point_type(c.setting),
-                 c.setting.strain_rate);
+                 c.setting.mass_scaling);
         before = &c;
     }
     rows.end_part();

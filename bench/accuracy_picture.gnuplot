@@ -1,8 +1,8 @@
 # Run time against error; a row of panels each series, left of the peak, right of E50. $panels: row,
 # right or not, noise floor [%], time [s] and error [%] of the reference and, where there is one, of the
-# default. A panel each block: $points: time, error, point type, strain rate; $fronts: time, error.
+# default. A panel each block: $points: time, error, point type, mass scaling; $fronts: time, error.
 at(p, column) = real(word($panels[p], column))
-colour(rate) = rate < 0.03 ? ink : rate < 0.075 ? muted : rate < 0.15 ? main : rate < 0.3 ? soft : contrast
+colour(scaling) = scaling < 1.5 ? main : scaling < 3 ? soft : contrast
 number(rgb) = int('0x'.rgb[2:*])
 height = (0.985 - 0.15)/|series|
 
@@ -42,21 +42,16 @@ do for [p=1:|$panels|] {
          $points index p-1 using 1:2:(1.5):3:(number(colour($4))) with points ps variable pt variable lw 1.6 lc rgb variable notitle
 }
 
-# The legend, drawn as a plot without axes: place, point type (0: none), strain rate, text.
+# The legend, drawn as a plot without axes: place, point type (0: none), mass scaling, text.
 $legend << EOD
-0.02 0.75 7 0.02 "rate 0.02/s"
-0.15 0.75 7 0.05 "0.05/s"
-0.235 0.75 7 0.1 "0.1/s"
-0.31 0.75 7 0.2 "0.2/s"
-0.385 0.75 7 0.4 "0.4/s"
-0.45 0.75 0 0.02 "lines: other safety, 0.2 to 0.95 of the limit"
-0.88 0.75 0 0.02 "Pareto front"
-0.02 0.25 7 0.02 "mixed precision"
-0.19 0.25 6 0.02 "double precision"
-0.365 0.25 2 0.02 "reference kernels"
-0.55 0.25 7 0.02 "real masses"
-0.69 0.25 9 0.02 "mass scaling 2"
-0.85 0.25 5 0.02 "mass scaling 4"
+0.02 0.75 7 1 "real masses"
+0.18 0.75 9 2 "mass scaling 2"
+0.36 0.75 5 4 "mass scaling 4"
+0.55 0.75 0 1 "lines: other safety, 0.2 to 0.95 of the limit"
+0.02 0.25 7 1 "mixed precision"
+0.18 0.25 6 1 "double precision"
+0.36 0.25 2 1 "reference kernels"
+0.55 0.25 0 1 "dashes: Pareto front"
 EOD
 set lmargin at screen 0.08
 set rmargin at screen 0.99
@@ -73,7 +68,6 @@ set xlabel ''
 set ylabel ''
 set xrange [0:1]
 set yrange [0:1]
-set arrow 1 from 0.845,0.75 to 0.885,0.75 nohead lw 2 dt (6,4) lc rgb muted
 plot $legend using ($3 > 0 ? $1 : NaN):2:(1.5):3:(number(colour($4))) with points ps variable pt variable lw 1.6 lc rgb variable notitle, \
      $legend using 1:2:5 with labels left offset 1.4,0 tc rgb ink notitle
 unset multiplot

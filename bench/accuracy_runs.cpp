@@ -69,7 +69,6 @@ Run run_once(const Task& task) {
     triaxial::Config config = task.series->config;
     config.time.safety = task.setting.safety;
     config.time.mass_scaling = task.setting.mass_scaling;
-    config.triaxial.strain_rate = task.setting.strain_rate;
     triaxial::Sample sample = task.series->sample;
     disturb(sample.spheres, task.repeat);
 
@@ -105,9 +104,7 @@ double expected_work(const Task& task) {
     const double step = s.reference_kernels                       ? 3.7
                         : s.precision == core::Precision::double_ ? 1.5
                                                                   : 1.0;
-    const double steps = default_setting.safety / (s.safety * s.mass_scaling) *
-                         (0.2 + 0.8 * default_setting.strain_rate / s.strain_rate);
-    return task.series->work * step * steps;
+    return task.series->work * step * default_setting.safety / (s.safety * s.mass_scaling);
 }
 
 }  // namespace
@@ -121,7 +118,7 @@ core::SolverOptions Setting::solver() const {
 std::vector<Series> make_series(const std::filesystem::path& packing, double last_strain,
                                 core::Monitor& monitor) {
     triaxial::Config config;
-    config.packing.spheres = 351;
+    config.packing.seed = 2;  // dense: its peak is clear, and runs scatter little
     config.packing.blocks = {2, 4, 2};
     config.triaxial.max_axial_strain = last_strain;
     if (!std::filesystem::exists(packing)) {

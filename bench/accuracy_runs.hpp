@@ -17,7 +17,6 @@ struct Setting {
     core::Precision precision = core::Precision::mixed;
     double safety = 0.8;        ///< share of the stability limit [-]
     double mass_scaling = 1.0;  ///< [-]
-    double strain_rate = 0.1;   ///< [1/s]
 
     bool operator==(const Setting&) const = default;
     core::SolverOptions solver() const;
