@@ -141,18 +141,22 @@ TEST_F(Folder, MergingTakesRowsOverOnce) {
         Row failed = row(3);
         failed.failed = true;
         failed.reason = "lost a \"sphere\"";
-        other.append({{row(1), failed}});
+        Row doubtful = row(1);
+        doubtful.warnings = {"not \"held\"", "too fast"};
+        other.append({{row(0), doubtful, failed}});
         std::filesystem::create_directories(folder_ / "other" / "failed");
         write("other/failed/base-3.h5", "state");
     }
     CampaignFolder folder = open(all);
-    folder.append({{row(0), row(1)}});
-    EXPECT_EQ(folder.merge(folder_ / "other"), 1u);
+    folder.append({{row(0)}});
+    EXPECT_EQ(folder.merge(folder_ / "other"), 2u);
     EXPECT_EQ(folder.merge(folder_ / "other"), 0u);
     folder.write_results();
     EXPECT_EQ(folder.finished().size(), 3u);
     EXPECT_THAT(core::read_whole_file(folder_ / "out" / "failures.csv"),
                 HasSubstr("base,3,\"lost a 'sphere'\",failed/base-3.h5"));
+    EXPECT_EQ(core::read_whole_file(folder_ / "out" / "warnings.csv"),
+              "case,realization,warning\nbase,1,\"not 'held'\"\nbase,1,\"too fast\"\n");
     EXPECT_EQ(core::read_whole_file(folder_ / "out" / "failed" / "base-3.h5"), "state");
     { open(cases("particle.density = 2500\n"), {}, "stranger"); }
     EXPECT_THROW(folder.merge(folder_ / "stranger"), InputError);

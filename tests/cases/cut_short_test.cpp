@@ -70,6 +70,17 @@ TEST_F(CutShort, AllOfACampaign) {
     EXPECT_TRUE(has(page(), "No peak was found in 2 of 2 runs"));
 }
 
+// So once did numbers of tests far from quasi-static.
+TEST_F(CutShort, TestsTooFast) {
+    const Outcome outcome = campaign("[triaxial]\nmax_axial_strain = 0.003\nstrain_rate = 0.2\n");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_TRUE(has(outcome.out, "; 2 with a warning")) << outcome.out;
+    const std::string warnings = place_.read("c/warnings.csv");
+    EXPECT_TRUE(has(warnings, "base,-1,\"not quasi-static: the inertial number is")) << warnings;
+    EXPECT_TRUE(has(warnings, "base,1,\"not quasi-static: the inertial number is")) << warnings;
+    EXPECT_TRUE(has(page(), "2 of 2 runs carry a warning"));
+}
+
 TEST_F(CutShort, OneCaseOfTwo) {
     const Outcome outcome =
         campaign("[montecarlo.sweep]\n\"triaxial.max_axial_strain\" = [0.002, 0.03]\n");

@@ -26,9 +26,9 @@ inline constexpr std::array foreign_files = std::to_array<std::string_view>(
      "state.failed.h5", "summary.json", "curve.csv", "energy.csv", "contacts.csv", "trajectory.csv",
      "config.toml", "report.html",
      // of a campaign, of `field`
-     "results.csv", "deterministic.csv", "failures.csv", "statistics.csv", "campaign.json",
-     "repeats.csv", "repeats.json", "NAME.toml", "HASH.h5", "field.csv", "verification.html",
-     "correlation.csv", "histogram.csv", "variance.csv", "scatter.csv",
+     "results.csv", "deterministic.csv", "failures.csv", "warnings.csv", "statistics.csv",
+     "campaign.json", "repeats.csv", "repeats.json", "NAME.toml", "HASH.h5", "field.csv",
+     "verification.html", "correlation.csv", "histogram.csv", "variance.csv", "scatter.csv",
      // of a test run
      "test_times.csv",
      // what a user brings

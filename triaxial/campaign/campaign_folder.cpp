@@ -298,18 +298,17 @@ std::map<RowPlace, Row> CampaignFolder::write_results() const {
         std::sort(part->begin(), part->end(), row_before);
         for (const Row& row : *part) {
             if (!row.failed) continue;
-            std::string reason = row.reason;
-            std::replace(reason.begin(), reason.end(), '"', '\'');
-            std::replace(reason.begin(), reason.end(), '\n', ' ');
             const bool kept = fs::exists(path_ / state_name(row));
-            failures += fmt::format("{},{},\"{}\",{}\n", row.case_name, row.realization, reason,
-                                    kept ? state_name(row).string() : "");
+            failures += fmt::format("{},{},{},{}\n", row.case_name, row.realization,
+                                    quoted_field(row.reason), kept ? state_name(row).string() : "");
         }
     }
     const SweptColumns swept = swept_columns();
     core::write_file_atomically(path_ / "results.csv", rows_csv(rows, swept));
     core::write_file_atomically(path_ / "deterministic.csv", rows_csv(deterministic, swept));
     core::write_file_atomically(path_ / "failures.csv", failures);
+    deterministic.insert(deterministic.end(), rows.begin(), rows.end());
+    core::write_file_atomically(path_ / "warnings.csv", warnings_csv(deterministic));
     return all;
 }
 

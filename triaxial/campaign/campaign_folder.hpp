@@ -7,6 +7,7 @@
 //   results.csv            all of them, sorted
 //   deterministic.csv      those of deterministic runs
 //   failures.csv, failed/  case, realization, reason of runs that failed; their states
+//   warnings.csv           what makes numbers of runs doubtful
 //   packings/, starts/     samples that runs start from (starts.hpp)
 
 #include <filesystem>
@@ -44,8 +45,8 @@ class CampaignFolder {
     /// Takes the rows of another folder of the same campaign over. Returns how many were new.
     /// InputError: it belongs to another campaign.
     std::size_t merge(const std::filesystem::path& other);
-    /// Writes results.csv, deterministic.csv and failures.csv from all journals. Returns
-    /// finished().
+    /// Writes results.csv, deterministic.csv, failures.csv and warnings.csv from all journals.
+    /// Returns finished().
     std::map<RowPlace, Row> write_results() const;
     /// Where the state of a failed run goes, within the folder.
     static std::filesystem::path state_name(const Row& row);

@@ -1,10 +1,12 @@
 #include "triaxial/campaign/row.hpp"
-#include "core/files/json_text.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <tuple>
+
+#include "core/files/json_text.hpp"
 
 namespace grainfield::triaxial {
 
@@ -33,6 +35,21 @@ std::string rows_csv(std::span<const Row> rows, const SweptColumns& swept) {
     return text;
 }
 
+std::string quoted_field(std::string text) {
+    std::replace(text.begin(), text.end(), '"', '\'');
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return '"' + text + '"';
+}
+
+std::string warnings_csv(std::span<const Row> rows) {
+    std::string text = "case,realization,warning\n";
+    for (const Row& r : rows)
+        for (const std::string& warning : r.warnings)
+            fmt::format_to(std::back_inserter(text), "{},{},{}\n", r.case_name, r.realization,
+                           quoted_field(warning));
+    return text;
+}
+
 std::string row_line(const Row& r) {
     const nlohmann::json json{{"case", r.case_name},
                               {"realization", r.realization},
@@ -47,7 +64,8 @@ std::string row_line(const Row& r) {
                               {"state_hash", r.state_hash},
                               {"failure", r.failure},
                               {"end_reason", r.end_reason},
-                              {"reason", r.reason}};
+                              {"reason", r.reason},
+                              {"warnings", r.warnings}};
     return core::json_text(json);
 }
 
@@ -70,6 +88,7 @@ bool parse_row(std::string_view line, Row& row) {
         row.failure = json.value("failure", "");  // journals of earlier versions lack them
         row.end_reason = json.value("end_reason", "");
         json.at("reason").get_to(row.reason);
+        row.warnings = json.value("warnings", std::vector<std::string>{});
     } catch (const nlohmann::json::exception&) {
         return false;
     }

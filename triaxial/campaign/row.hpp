@@ -28,6 +28,7 @@ struct Row {
     std::string failure;     ///< "peak", "plateau" or "strain-limit"; empty in older tables
     std::string end_reason;  ///< of that, or "asked"
     std::string reason;      ///< why it failed
+    std::vector<std::string> warnings = {};  ///< sentences on what makes the numbers doubtful
 
     bool operator==(const Row&) const = default;
 };
@@ -43,6 +44,12 @@ struct SweptColumns {
 
 /// results.csv of the contract: header and rows as they come; numbers of failed rows are empty.
 std::string rows_csv(std::span<const Row> rows, const SweptColumns& swept = {});
+
+/// warnings.csv: header and a line a warning.
+std::string warnings_csv(std::span<const Row> rows);
+
+/// A text as one field of a CSV file.
+std::string quoted_field(std::string text);
 
 /// A row as one line without its end, for the journal; numbers come back bit for bit.
 std::string row_line(const Row& row);

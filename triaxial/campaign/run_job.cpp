@@ -66,6 +66,7 @@ Row run_job(const Job& job, const Starts& starts, const std::filesystem::path& f
         row.state_hash = simulation.state_hash();
         row.failure = failure_name(result.results.failure);
         row.end_reason = result.end_reason;
+        row.warnings = result.warnings;
     } catch (const SimulationError& error) {
         row.failed = true;
         row.reason = error.what();

@@ -50,13 +50,14 @@ void print_cases(const std::vector<CampaignCase>& cases, const std::map<RowPlace
     for (const CampaignCase& one : cases)
         widest = std::max(widest, std::min<std::size_t>(one.name.size(), 60));
     for (std::size_t c = 0; c < cases.size(); ++c) {
-        std::size_t failed = 0, without_peak = 0;
+        std::size_t failed = 0, without_peak = 0, with_warnings = 0;
         std::vector<double> peak, E50;
         for (auto at = rows.lower_bound({c, 0}); at != rows.end() && at->first.case_index == c;
              ++at) {
             failed += at->second.failed ? 1u : 0u;
             if (at->second.failed) continue;
             without_peak += at->second.failure == failure_name(Failure::strain_limit) ? 1u : 0u;
+            with_warnings += at->second.warnings.empty() ? 0u : 1u;
             peak.push_back(at->second.peak_deviator_stress / 1e3);
             E50.push_back(at->second.E50 / 1e6);
         }
@@ -66,6 +67,7 @@ void print_cases(const std::vector<CampaignCase>& cases, const std::map<RowPlace
             text +=
                 fmt::format("; means: peak {} kPa, E50 {} MPa", mean_text(peak), mean_text(E50));
         if (without_peak > 0) text += fmt::format("; {} without a peak", without_peak);
+        if (with_warnings > 0) text += fmt::format("; {} with a warning", with_warnings);
         print_row(fmt::format("{:<{}}", cases[c].name, widest), text);
     }
 }

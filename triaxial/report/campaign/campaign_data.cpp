@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "core/base/errors.hpp"
 #include "core/files/text_file.hpp"
@@ -66,6 +67,31 @@ std::vector<triaxial::Row> read_rows(const fs::path& path) {
     return rows;
 }
 
+/// The lines below the header.
+std::vector<std::string> read_lines(const fs::path& path) {
+    std::vector<std::string> found;
+    const std::string text = core::read_whole_file(path);
+    core::LineReader lines(text);
+    std::string_view line;
+    for (lines.next(line); lines.next(line);) found.emplace_back(line);
+    return found;
+}
+
+/// Runs with warnings in each case; a run's warnings follow each other.
+void count_warnings(CampaignData& data, const std::map<std::string, std::size_t>& index) {
+    std::string run;
+    for (const std::string& warning : data.warnings) {
+        std::string_view rest = warning;
+        const std::string name(core::next_field(rest, ','));
+        const std::string realization(core::next_field(rest, ','));
+        const auto at = index.find(name);
+        if (at == index.end() || realization == fmt::format("{}", deterministic_run)) continue;
+        CaseData& one = data.cases[at->second];
+        if (std::exchange(run, name + "," + realization) != run) ++one.with_warnings;
+        if (rest.starts_with("\"not quasi-static")) ++one.not_quasi_static;
+    }
+}
+
 }  // namespace
 
 bool is_campaign(const fs::path& folder) {
@@ -107,10 +133,10 @@ CampaignData read_campaign_data(const fs::path& folder) {
     }
     for (triaxial::Row& row : read_rows(folder / "deterministic.csv"))
         if (CaseData& one = place(row); !row.failed) one.deterministic = std::move(row);
-    const std::string failures = core::read_whole_file(folder / "failures.csv");
-    core::LineReader lines(failures);
-    std::string_view line;
-    for (lines.next(line); lines.next(line);) data.failures.emplace_back(line);
+    data.failures = read_lines(folder / "failures.csv");
+    if (fs::exists(folder / "warnings.csv"))  // campaigns of earlier versions have none
+        data.warnings = read_lines(folder / "warnings.csv");
+    count_warnings(data, index);
 
     std::set<std::string> keys;
     for (const CaseData& one : data.cases)

@@ -20,8 +20,10 @@ struct CaseData {
     std::map<std::string, std::string> values;  ///< of all config keys, as TOML
     std::vector<triaxial::Row> rows;            ///< that did not fail, by realization
     std::optional<triaxial::Row> deterministic;
-    std::size_t failed = 0;        ///< [-]
-    std::size_t without_peak = 0;  ///< of the rows: ended before a peak or plateau [-]
+    std::size_t failed = 0;            ///< [-]
+    std::size_t without_peak = 0;      ///< of the rows: ended before a peak or plateau [-]
+    std::size_t with_warnings = 0;     ///< of the rows [-]
+    std::size_t not_quasi_static = 0;  ///< of these [-]
 };
 
 struct CampaignData {
@@ -30,6 +32,7 @@ struct CampaignData {
     std::vector<std::string> machines;  ///< that worked on it
     std::vector<CaseData> cases;        ///< by name, numbers in it by their size
     std::vector<std::string> failures;  ///< case, realization and reason of each, as text
+    std::vector<std::string> warnings;  ///< case, realization and sentence of each, as text
     std::vector<std::string> varying;   ///< config keys that are not the same in all cases
     double wall_seconds = 0;            ///< of all rows [s]
 };

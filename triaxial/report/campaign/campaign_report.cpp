@@ -171,13 +171,24 @@ std::string lead(const CampaignData& data) {
                        duration(data.wall_seconds));
 }
 
-/// Runs without a peak bias the statistics: they are counted where nobody can miss it.
-void add_warning(Page& page, const CampaignData& data) {
-    std::size_t done = 0, without_peak = 0;
+/// Runs without a peak bias the statistics, and so may what runs warn of: they are counted where
+/// nobody can miss it.
+void add_warnings(Page& page, const CampaignData& data) {
+    std::size_t done = 0, without_peak = 0, with_warnings = 0, not_quasi_static = 0;
     for (const CaseData& one : data.cases) {
         done += one.rows.size();
         without_peak += one.without_peak;
+        with_warnings += one.with_warnings;
+        not_quasi_static += one.not_quasi_static;
     }
+    if (with_warnings > 0)
+        page.paragraph(
+            fmt::format(
+                "{} of {} runs carry a warning (<code>warnings.csv</code>); {} of them "
+                "are not quasi-static.",
+                count(static_cast<double>(with_warnings)), count(static_cast<double>(done)),
+                not_quasi_static == 0 ? "none" : count(static_cast<double>(not_quasi_static))),
+            "warning");
     if (without_peak == 0) return;
     page.paragraph(
         fmt::format("No peak was found in {} of {} runs: they ended before <i>q</i> had fallen for "
@@ -194,7 +205,7 @@ std::string campaign_page(const CampaignData& data, const CampaignStatistics& al
         escape(std::filesystem::weakly_canonical(data.path).filename().string());
     Page page(fmt::format("Grainfield report · campaign “{}”", folder), "Monte Carlo campaign",
               lead(data));
-    add_warning(page, data);
+    add_warnings(page, data);
     page.section("Results");
     for (std::size_t q = 0; q < std::size(quantities); ++q) add_moments(page, data, all, q);
     page.paragraph(
@@ -212,6 +223,16 @@ std::string campaign_page(const CampaignData& data, const CampaignStatistics& al
         page.section("Runs that failed");
         std::string list;
         for (const std::string& line : data.failures) list += line + '\n';
+        page.listing(list);
+    }
+    if (!data.warnings.empty()) {
+        constexpr std::size_t shown = 20;
+        page.section("Warnings");
+        std::string list;
+        for (std::size_t k = 0; k < std::min(shown, data.warnings.size()); ++k)
+            list += data.warnings[k] + '\n';
+        if (data.warnings.size() > shown)
+            list += fmt::format("and {} more: warnings.csv\n", data.warnings.size() - shown);
         page.listing(list);
     }
     page.section("Settings");
