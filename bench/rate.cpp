@@ -219,8 +219,8 @@ std::string picture(const std::vector<Study>& studies) {
     for (const double damping : studies.front().sample->dampings)
         dampings.push_back(fmt::format("{}", damping));
     const triaxial::report::Gnuplot gnuplot(bench::gnuplot_templates());
-    const int width = 80 + 300 * static_cast<int>(studies.size());
-    return gnuplot.png("rate", "rate", {width, 640},
+    const int width = 60 + 400 * static_cast<int>(studies.size());
+    return gnuplot.png("rate", "rate", {width, 800},
                        {{"points", points},
                         {"limits", limits},
                         {"names", std::span<const std::string>(names)},

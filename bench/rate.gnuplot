@@ -7,17 +7,17 @@ set xrange [0.0013:0.6]
 first_block = 0
 do for [s=1:samples] {
     blocks = int(counts[s])
-    left = 0.055 + (s - 1) * 0.94 / samples
-    set lmargin at screen left
-    set rmargin at screen left + 0.94 / samples - 0.035
+    left = 0.03 + (s - 1) * 0.965 / samples
+    set lmargin at screen left + 0.04
+    set rmargin at screen left + 0.965 / samples - 0.01
     set tmargin at screen 0.87
     set bmargin at screen 0.47
     set title names[s] offset 0,-0.6
-    set xtics ('' 0.002, '' 0.01, '' 0.05, '' 0.1, '' 0.4)
+    set xtics ('' 0.002, '' 0.01, '' 0.05, '' 0.2)
     unset xlabel
-    set ylabel s == 1 ? 'Largest {/:Italic q} (kPa)' : '' offset 0.8,0
+    set ylabel s == 1 ? 'Largest {/:Italic q} (kPa)' : '' offset 0.5,0
     set yrange [0:*]
-    set key at screen 0.5,0.985 center top horizontal maxrows 1
+    set key at screen 0.5,0.985 center top horizontal maxrows 1 width 1
     if (s > 1) { unset key }
     stats $limits every ::s-1::s-1 using 1 name 'limit' nooutput
     stats $limits every ::s-1::s-1 using 2 name 'low' nooutput
@@ -25,20 +25,20 @@ do for [s=1:samples] {
     set object 1 rectangle from graph 0,first low_max to graph 1,first high_max fs solid 0.18 noborder fc rgb main behind
     set arrow 1 from graph 0,first limit_max to graph 1,first limit_max nohead lw 1 dt (6,4) lc rgb main
     plot for [b=0:blocks-1] $points index first_block+b using 1:2:3 with yerrorlines \
-             pt (b % 2 == 0 ? 7 : 6) ps 0.8 lw 1.4 dt (b < 2 ? 1 : 2) \
+             pt (b % 2 == 0 ? 7 : 6) ps 0.8 lw 1.4 \
              lc rgb (b == 0 ? soft : b == 1 ? main : b == 2 ? contrast : ink) title 'damping '.dampings[b+1]
     unset object 1
     unset arrow 1
     unset title
     set tmargin at screen 0.43
-    set bmargin at screen 0.09
-    set xtics ('0.002' 0.002, '0.01' 0.01, '0.05' 0.05, '0.1' 0.1, '0.4' 0.4)
+    set bmargin at screen 0.105
+    set xtics ('0.002' 0.002, '0.01' 0.01, '0.05' 0.05, '0.2' 0.2)
     set xlabel 'Strain rate (1/s)' offset 0,0.4
-    set ylabel s == 1 ? 'Share of damping in the dissipated energy (%)' : '' offset 0.8,0
+    set ylabel s == 1 ? 'Share of damping (%)' : '' offset 0.8,0
     set yrange [0:100]
     unset key
     plot for [b=0:blocks-1] $points index first_block+b using 1:4 with linespoints \
-             pt (b % 2 == 0 ? 7 : 6) ps 0.8 lw 1.4 dt (b < 2 ? 1 : 2) \
+             pt (b % 2 == 0 ? 7 : 6) ps 0.8 lw 1.4 \
              lc rgb (b == 0 ? soft : b == 1 ? main : b == 2 ? contrast : ink) notitle
     first_block = first_block + blocks
 }

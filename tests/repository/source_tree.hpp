@@ -31,7 +31,7 @@ inline std::vector<std::string> split_lines(std::string_view text) {
 
 inline bool is_cpp(std::string_view path) {
     const auto ends = [&](std::string_view suffix) { return path.ends_with(suffix); };
-    return ends(".cpp") || ends(".hpp") || ends(".h") || ends(".inc");
+    return ends(".cpp") || ends(".hpp") || ends(".h");
 }
 
 /// Every file below `root` but for build results and what belongs to git, an editor or a workplace;

@@ -64,8 +64,8 @@ void print_cases(const std::vector<CampaignCase>& cases, const std::map<RowPlace
         std::string text = fmt::format("{} of {} done, {} failed", E50.size(),
                                        cases[c].config.montecarlo.realizations, failed);
         if (!E50.empty())
-            text +=
-                fmt::format("; means: peak {} kPa, E50 {} MPa", mean_text(peak), mean_text(E50));
+            text += fmt::format("; means with 95 % intervals: peak {} kPa, E50 {} MPa",
+                                mean_text(peak), mean_text(E50));
         if (without_peak > 0) text += fmt::format("; {} without a peak", without_peak);
         if (with_warnings > 0) text += fmt::format("; {} with a warning", with_warnings);
         print_row(fmt::format("{:<{}}", cases[c].name, widest), text);
