@@ -56,6 +56,8 @@ nlohmann::json packing_json(const packing::Packing& p, double wall_seconds) {
     return {{"particles", p.spheres.size()},
             {"porosity", p.porosity},
             {"block_spheres", p.block.spheres.size()},
+            {"largest_grain_over_block",
+             p.block.grading.diameter.back() / p.options.block.minCoeff()},
             {"block_porosity", p.block.porosity},
             {"block_settled_height_m", p.block.settled_height},
             {"block_mean_stress_Pa", p.block.mean_stress},
