@@ -12,6 +12,7 @@
 #include "core/drive/measures.hpp"
 #include "core/drive/servo.hpp"
 #include "packing/deposit.hpp"
+#include "packing/patience.hpp"
 
 namespace grainfield::packing {
 namespace {
@@ -21,20 +22,20 @@ constexpr double shaking_acceleration = 2.0;  // share of gravity [-]
 constexpr double shaking_frequency = 15.0;    // [1/s]
 constexpr double bout = 0.25;                 // of shaking, between two looks at the lid [s]
 constexpr double lid_stress_share = 1.0;      // lid stress over the block's own weight's [-]
-constexpr double stalled = 2e-3;              // a bout that lowers the lid less, of b_y [-]
-constexpr int patience = 3;  // stalled bouts in a row before the friction is lowered [-]
-// Without friction a block that is jammed comes loose again if it is shaken otherwise: bouts of
-// other strength and pace, many of them, before the porosity is given up.
-constexpr int last_patience = 80;                 // stalled bouts in a row [-]
+// Without friction bouts differ in strength and pace.
 constexpr double weakest = 0.3, strongest = 3.0;  // share of gravity [-]
 constexpr double slowest = 10.0, fastest = 25.0;  // [1/s]
 constexpr double friction_factor = 0.7;      // the friction angle goes down by this when stalled
 constexpr double lowest_friction = 2e-3;     // below this: none [rad]
+constexpr int most_looks_at_rest = 20;       // with too much stress, without friction [-]
 constexpr double porosity_tolerance = 2e-3;  // of the block [-]
 constexpr double rest_ratio = 1e-3;          // unbalanced force ratio of a settled state [-]
 // From this ratio on, a look (50 steps) takes a share of all velocities away: loose spheres that
 // bounce in their pores lose little by local damping alone, and what still falls goes on falling.
 constexpr double damped_below = 0.05, damped_to = 0.95;  // [-]
+// Blocks settle in 1 to 50 times sqrt(height/g), the time of a fall.
+constexpr double longest_settling = 200;  // of these times [-]
+constexpr double large_grain = 0.5;       // diameter, of the block's smallest side [-]
 
 /// A wall deforms like half of the contact with a mirror image: infinitely stiff, it gives the
 /// same force at the same overlap on this side of the mirror plane, so that the block stays in
@@ -61,7 +62,8 @@ class BlockPacker {
         driver_.monitor().begin(stage);
         simulation_.change().set_gravity(reversed ? Vec3(-gravity()) : gravity());
         simulation_.set_wall_velocity(lid, Vec3::Zero());
-        const double deadline = simulation_.time() + 30.0;
+        const double deadline =
+            simulation_.time() + longest_settling * std::sqrt(lid_height() / options_.gravity);
         double ratio = 1;
         double speed = 0;
         const double negligible = 1e-4 * std::sqrt(options_.gravity * options_.block.y());
@@ -79,10 +81,10 @@ class BlockPacker {
                                            fmt::format("unbalanced force ratio {:.2g}", ratio));
             if (simulation_.time() > deadline)
                 driver_.fail(fmt::format(
-                    "the block does not come to rest_ratio: unbalanced force ratio {:.2g}, "
-                    "mean speed {:.2g} m/s "
-                    "after 30 s",
-                    ratio, speed));
+                    "the block does not come to rest: after {} times sqrt(height/g) the unbalanced "
+                    "force ratio is {:.2g} ({:g} is rest) and the mean speed {:.2g} m/s, at a "
+                    "porosity of {:.4f}; another packing.seed or more damping.force may help",
+                    longest_settling, ratio, rest_ratio, speed, porosity(top_of_bed())));
         } while (ratio > rest_ratio || speed > negligible);
         simulation_.compute_forces(true);
     }
@@ -173,6 +175,33 @@ core::ParticleStore at_rest(core::ParticleStore spheres, const Vec3& size) {
     return spheres;
 }
 
+/// What may bring a block to a lower porosity.
+std::string help(const PackingOptions& options, const GradingDraw& grading) {
+    return fmt::format(
+        "a higher porosity, another packing.seed, a larger packing.block (its smallest side is "
+        "{:.1f} times the largest of {} grains){} or a finer grading may help",
+        options.block.minCoeff() / grading.diameter.back(), grading.diameter.size(),
+        options.spheres ? ", a larger packing.spheres" : "");
+}
+
+/// Grains that are too large for the block are refused; those that nearly are, are pointed out.
+void check_largest(const PackingOptions& options, const GradingDraw& grading,
+                   core::Monitor& monitor) {
+    const double largest = grading.diameter.back(), side = options.block.minCoeff();
+    const std::string what =
+        fmt::format("the largest of {} grains, {:.4g} m (diameters are scaled by {:.4g}),",
+                    grading.diameter.size(), largest, grading.scale);
+    if (largest > side)
+        throw InputError(fmt::format(
+            "packing.block = [{:g}, {:g}, {:g}]: {} does not fit; give a larger packing.block, a "
+            "finer grading or, where it fixes the count, a larger packing.spheres",
+            options.block.x(), options.block.y(), options.block.z(), what));
+    if (largest > large_grain * side)
+        monitor.note(fmt::format(
+            "warning: {} is {:.2f} of the block's smallest side: few grains decide the sample",
+            what, largest / side));
+}
+
 }  // namespace
 
 double bulk_unit_weight(const Material& material, double porosity, double gravity) {
@@ -184,6 +213,7 @@ Block pack_block(const PackingOptions& options, const Grading& grading, const Ma
     Block block;
     block.grading = draw_diameters(grading, (1 - options.porosity) * options.block.prod(),
                                    options.seed, options.spheres, &monitor);
+    check_largest(options, block.grading, monitor);
     const std::size_t n = block.grading.diameter.size();
     core::Scene scene;
     scene.spheres.resize(n);
@@ -195,6 +225,7 @@ Block pack_block(const PackingOptions& options, const Grading& grading, const Ma
               material.friction_angle);
     scene.stiffness_ratio = material.stiffness_ratio;
     scene.damping = material.damping;
+    monitor.begin("placing the spheres of one block");
     const double height = place_at_random(scene.spheres, options.block.x(), options.block.z(),
                                           2.5 * options.block.y(), options.seed, &monitor);
     core::Wall wall;
@@ -214,8 +245,8 @@ Block pack_block(const PackingOptions& options, const Grading& grading, const Ma
         settled < options.porosity - porosity_tolerance)
         throw InputError(
             fmt::format("packing.porosity = {:g}: cannot be reached with this grading and block; "
-                        "under gravity alone it settles at "
-                        "{:.4f}",
+                        "under gravity alone it settles at {:.4f}; a lower porosity or, for a "
+                        "looser bed, a larger particle.friction_angle may help",
                         options.porosity, settled));
     simulation.change().set_wall_point(
         lid, Vec3(0, std::max(block.settled_height, options.block.y()), 0));
@@ -226,36 +257,35 @@ Block pack_block(const PackingOptions& options, const Grading& grading, const Ma
     const auto lower_friction = [&] {
         friction = friction * friction_factor < lowest_friction ? 0.0 : friction * friction_factor;
     };
-    for (int failed_at_rest = 0, stalled_bouts = 0;;) {
-        const double before = packer.lid_height();
+    Patience patience(options.block.y(), packer.lid_height());
+    for (int failed_at_rest = 0;;) {
         packer.shake(friction);
         const double now = packer.lid_height();
         monitor.progress(
             -1, simulation.steps(),
             fmt::format("porosity {:.4f}, friction {:.3f} rad", packer.porosity(now), friction));
         if (now > options.block.y()) {
-            stalled_bouts = before - now < stalled * options.block.y() ? stalled_bouts + 1 : 0;
-            if (stalled_bouts >= patience && friction > 0.0) {
-                stalled_bouts = 0;
-                lower_friction();
-            } else if (stalled_bouts >= last_patience) {
+            const Patience::Verdict verdict = patience.after_bout(now, friction > 0.0);
+            if (verdict == Patience::Verdict::lower_friction) lower_friction();
+            if (verdict == Patience::Verdict::give_up)
                 throw InputError(
                     fmt::format("packing.porosity = {:g}: cannot be reached with this grading and "
-                                "block; shaking without friction ended at {:.4f}",
-                                options.porosity, packer.porosity(now)));
-            }
+                                "block; shaking, "
+                                "at last without friction, ended at {:.4f} after {} bouts; {}",
+                                options.porosity, packer.porosity(patience.lowest()),
+                                patience.bouts(), help(options, block.grading)));
             continue;
         }
+        patience.reached(now);
         simulation.change().set_friction_angle(material.friction_angle);
         packer.settle("settling the compacted block");
         block.mean_stress = packer.mean_stress();
         if (block.mean_stress <= limit) break;
-        if (friction == 0.0 && ++failed_at_rest > 20)
-            throw InputError(
-                fmt::format("packing.porosity = {:g}: cannot be reached without stress with this "
-                            "grading and block; it holds "
-                            "{:.3g} Pa, allowed is {:.3g} Pa",
-                            options.porosity, block.mean_stress, limit));
+        if (friction == 0.0 && ++failed_at_rest > most_looks_at_rest)
+            throw InputError(fmt::format(
+                "packing.porosity = {:g}: cannot be reached without stress with this "
+                "grading and block; it holds {:.3g} Pa, allowed is {:.3g} Pa; {}",
+                options.porosity, block.mean_stress, limit, help(options, block.grading)));
         lower_friction();
     }
     block.compaction_friction_angle = friction;

@@ -8,20 +8,14 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
+#include "packing/size_grid.hpp"
 
 namespace grainfield::packing {
 namespace {
 
 constexpr int attempts_a_sphere = 2000;
 constexpr std::uint64_t calls_a_look = 64;  // at the monitor: random numbers drawn between two
-
-bool fits(const core::ParticleStore& s, const std::vector<std::size_t>& placed, const Vec3& x,
-          double r) {
-    return std::none_of(placed.begin(), placed.end(), [&](std::size_t j) {
-        const double reach = r + s.radius[j];
-        return (s.position[j] - x).squaredNorm() < reach * reach;
-    });
-}
+constexpr std::size_t spheres_a_report = 1000;
 
 }  // namespace
 
@@ -39,8 +33,9 @@ double place_at_random(core::ParticleStore& spheres, double width, double depth,
                         "m x {:g} m wide; "
                         "give a larger block or a finer grading",
                         2 * spheres.radius[order[0]], width, depth));
-    std::vector<std::size_t> placed;
+    SizeGrid placed(spheres);
     std::uint64_t counter = 0;
+    std::size_t done = 0;
     for (std::size_t i : order) {
         const double r = spheres.radius[i];
         height = std::max(height, 2 * r);
@@ -51,13 +46,16 @@ double place_at_random(core::ParticleStore& spheres, double width, double depth,
             const double w = stream.uniform(0, counter++);
             const Vec3 x(r + u * (width - 2 * r), r + v * (height - 2 * r),
                          r + w * (depth - 2 * r));
-            if (fits(spheres, placed, x, r)) {
+            if (!placed.overlaps(x, r)) {
                 spheres.position.set(i, x);
-                placed.push_back(i);
+                placed.add(i);
                 break;
             }
             if (attempt % attempts_a_sphere == 0) height *= 1.1;  // room for more above
         }
+        if (monitor != nullptr && ++done % spheres_a_report == 0)
+            monitor->progress(static_cast<double>(done) / static_cast<double>(order.size()), -1,
+                              fmt::format("{} of {} spheres", done, order.size()));
     }
     return height;
 }

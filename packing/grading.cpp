@@ -1,5 +1,8 @@
 #include "packing/grading.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -58,6 +61,13 @@ double NumberDistribution::mean_cube(double u0, double u1) const {
     return (mass_share(u1) - mass_share(u0)) / ((u1 - u0) * inverse_mean_cube_);
 }
 
+NumberDistribution::Piece NumberDistribution::most_numerous() const {
+    const auto most =
+        std::max_element(segments_.begin(), segments_.end(),
+                         [](const auto& a, const auto& b) { return a.u1 - a.u0 < b.u1 - b.u0; });
+    return {most->d0, most->d1, most->u1 - most->u0};
+}
+
 double expected_spheres(const Grading& grading, double target_volume) {
     const double mean_cube = NumberDistribution(grading).mean_cube(0.0, 1.0);
     return target_volume / (std::numbers::pi / 6 * mean_cube);
@@ -90,6 +100,11 @@ GradingDraw draw_diameters(const Grading& grading, double target_volume, std::ui
     // The volume of n stratified grains grows with n but for small jumps of the largest: bisect,
     // then look around.
     const double expected = expected_spheres(grading, target_volume);
+    if (count ? *count > most_spheres : !(expected <= most_spheres))
+        throw InputError(
+            fmt::format("grading.sieve_diameter = {}: about {:.3g} spheres are too "
+                        "many to be numbered",
+                        grading.sieve_diameter, count ? *count : expected));
     const auto count_for_volume = [&](std::uint64_t attempt) {
         std::int32_t low = 1, high = static_cast<std::int32_t>(std::ceil(2.5 * expected)) + 4;
         while (high - low > 1) {

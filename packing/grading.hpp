@@ -20,6 +20,12 @@ class NumberDistribution {
     double quantile(double u) const;
     /// Mean of D^3 over the grains between the shares u0 < u1 [m3].
     double mean_cube(double u0, double u1) const;
+    /// The two sieves with the largest share of the grains between them.
+    struct Piece {
+        double fine, coarse;  // sieves [m]
+        double share;         // of the grains, by number [-]
+    };
+    Piece most_numerous() const;
 
   private:
     struct Segment {
@@ -41,7 +47,8 @@ struct GradingDraw {
 
 /// Spheres that together have the target volume [m3]. Stratified: one grain from each of n equal
 /// shares of the number distribution. n follows from the volume, or is `count`; a common factor
-/// then brings the volume to the target exactly. Throws Interrupted where the monitor asks to stop.
+/// then brings the volume to the target exactly. Throws InputError where that would be more than
+/// most_spheres, and Interrupted where the monitor asks to stop.
 GradingDraw draw_diameters(const Grading& grading, double target_volume, std::uint64_t seed,
                            std::optional<std::int32_t> count, core::Monitor* monitor = nullptr);
 

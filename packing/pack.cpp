@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "core/base/errors.hpp"
-#include "core/base/memory_limit.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/drive/driver.hpp"
 #include "core/kernel_choice.hpp"
@@ -14,6 +13,7 @@
 #include "packing/flip.hpp"
 #include "packing/isotropic.hpp"
 #include "packing/settle.hpp"
+#include "packing/sphere_count.hpp"
 
 namespace grainfield::packing {
 namespace {
@@ -24,23 +24,6 @@ core::Wall box_wall(const Material& material) {
     wall.normal_stiffness = material.normal_stiffness;
     wall.stiffness_ratio = material.wall_stiffness_ratio;
     return wall;
-}
-
-/// More spheres than there is memory for, or than can be numbered, are refused before any is drawn.
-void require_room(const PackingOptions& options, const Grading& grading) {
-    constexpr double bytes_a_sphere = 390;  // store, records and lists in mixed precision [B]
-    constexpr double most = 5e8;  // numbers of 32 bits, with room for the search of a count [-]
-    const double solid = (1 - options.porosity) * options.block.prod();
-    const double block = options.spheres ? *options.spheres : expected_spheres(grading, solid);
-    const double blocks = double(options.blocks[0]) * options.blocks[1] * options.blocks[2];
-    const double allowed = std::min(most, core::memory_of_process() / bytes_a_sphere);
-    if (block * blocks <= allowed) return;
-    throw InputError(fmt::format(
-        "packing.blocks = [{}, {}, {}]: about {:.3g} spheres in each of {:.3g} blocks are {:.3g} "
-        "spheres: at most {:.3g} are allowed here ({} bytes of memory each); give fewer blocks, a "
-        "smaller packing.block or a grading without its finest part",
-        options.blocks[0], options.blocks[1], options.blocks[2], block, blocks, block * blocks,
-        allowed, bytes_a_sphere));
 }
 
 /// What has been done. A checkpoint that is made before is one of the state it begins with.
@@ -122,7 +105,7 @@ Packing pack(const PackingOptions& options, const Grading& grading, const Materi
              const core::SolverOptions& solver, core::Checkpoint* checkpoint) {
     options.validate();
     grading.validate();
-    require_room(options, grading);
+    require_countable(options, grading);
     core::Stopwatch watch;
     Done done = Done::nothing;
     Packing packing;
@@ -133,6 +116,7 @@ Packing pack(const PackingOptions& options, const Grading& grading, const Materi
         if (done != Done::nothing) archive_packing(archive, packing);
     });
     if (done == Done::nothing) {
+        monitor.note(sphere_count_text(options, grading));
         packing.block = make_block(options, grading, material, monitor, checkpoint);
         packing.block_seconds = watch.lap();
         done = Done::block;

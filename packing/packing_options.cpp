@@ -61,6 +61,8 @@ void PackingOptions::validate() const {
     require(is_positive(gravity), "packing.gravity", gravity, "a number > 0 is expected");
     if (spheres)
         require(*spheres >= 1, "packing.spheres", *spheres, "a whole number >= 1 is expected");
+    require(max_spheres >= 1 && max_spheres <= most_spheres, "packing.max_spheres", max_spheres,
+            "a whole number in [1, 500000000] is expected");
     if (isotropic_stress)
         require(is_positive(*isotropic_stress), "packing.isotropic_stress", *isotropic_stress,
                 "a number > 0 is expected");

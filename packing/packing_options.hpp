@@ -20,6 +20,9 @@ struct Grading {
     void validate() const;
 };
 
+/// Spheres that can be numbered in 32 bits, with room for the search of a count [-].
+inline constexpr std::int32_t most_spheres = 500'000'000;
+
 struct PackingOptions {
     std::uint64_t seed = 1;                        ///< of the block's draw and placing [-]
     Vec3 block{0.25, 0.25, 0.25};                  ///< b_x, b_y, b_z [m]
@@ -30,6 +33,7 @@ struct PackingOptions {
     /// Isotropic stress the sample is brought to after settling, gravity switched off; unset: the
     /// sample stays settled under gravity [Pa]
     std::optional<double> isotropic_stress;
+    std::int32_t max_spheres = 1'000'000;  ///< expected in one block: more are refused [-]
 
     void validate() const;  ///< throws InputError naming field, value and what is allowed
 };

@@ -19,6 +19,7 @@ porosity = 0.41
 gravity = 1.62
 spheres = 351
 isotropic_stress = 5e3
+max_spheres = 5000
 [particle]
 density = 2700
 normal_stiffness = 1e8
@@ -79,7 +80,7 @@ target_sd_error = 0.2
 inline Config changed_config() {
     Config c;
     c.grading = {{0.011, 0.05, 0.2}, {0, 40.5, 100}};
-    c.packing = {7, {0.3, 0.2, 0.1}, {2, 3, 4}, 0.41, 1.62, 351, 5e3};
+    c.packing = {7, {0.3, 0.2, 0.1}, {2, 3, 4}, 0.41, 1.62, 351, 5e3, 5000};
     c.particle = {2700, 1e8, 0.2, 0.5};
     c.damping = {0.1, 0.05};
     c.wall = {0.01, 0.3};

@@ -29,6 +29,7 @@ inline void expect_equal(const Config& a, const Config& b) {
     EXPECT_EQ(a.packing.gravity, b.packing.gravity);
     EXPECT_EQ(a.packing.spheres, b.packing.spheres);
     EXPECT_EQ(a.packing.isotropic_stress, b.packing.isotropic_stress);
+    EXPECT_EQ(a.packing.max_spheres, b.packing.max_spheres);
     EXPECT_EQ(a.particle.density, b.particle.density);
     EXPECT_EQ(a.particle.normal_stiffness, b.particle.normal_stiffness);
     EXPECT_EQ(a.particle.stiffness_ratio, b.particle.stiffness_ratio);

@@ -50,6 +50,9 @@ TEST(PackingOptions, RefusesWhatIsOutOfRange) {
         "are expected");
     EXPECT_THAT(refused([](auto& o) { o.spheres = 0; }),
                 "packing.spheres = 0: a whole number >= 1 is expected");
+    for (const std::int32_t most : {0, -1, 500'000'001})
+        EXPECT_THAT(refused([&](auto& o) { o.max_spheres = most; }),
+                    StartsWith("packing.max_spheres = "));
     for (const double stress : {0.0, -1.0, nan_value, infinity})
         EXPECT_THAT(refused([&](auto& o) { o.isotropic_stress = stress; }),
                     StartsWith("packing.isotropic_stress = "));

@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <ctime>
 #include <numeric>
 
+#include "core/base/random.hpp"
 #include "packing/flip.hpp"
+#include "packing/size_grid.hpp"
 #include "tests/packing/small_samples.hpp"
 
 namespace grainfield::packing {
@@ -54,6 +58,46 @@ TEST(PlaceAtRandom, SphereWiderThanTheBoxIsRefused) {
     const std::string message = message_of<InputError>([&] { place_at_random(s, 0.3, 0.2, 1, 1); });
     EXPECT_THAT(message, HasSubstr("packing.block"));
     EXPECT_THAT(message, HasSubstr("0.22"));
+}
+
+TEST(SizeGrid, FindsWhatALookAtEverySphereFinds) {
+    // Radii over three orders of magnitude, from the largest down; probes of any smaller size.
+    const core::RandomStream random(1, core::Stream::packing_position);
+    std::vector<double> radii;
+    for (int i = 0; i < 400; ++i) radii.push_back(0.1 * std::pow(10, -3.0 * i / 400));
+    core::ParticleStore s = spheres_of(radii, {});
+    SizeGrid grid(s);
+    std::uint64_t drawn = 0;
+    const auto place = [&] {
+        const auto [u, v] = random.uniform_pair(0, drawn++);
+        return Vec3(u, v, random.uniform(0, drawn++));
+    };
+    int overlapping = 0;
+    for (std::size_t n = 0; n < s.size(); ++n) {
+        for (int probe = 0; probe < 20; ++probe) {
+            const Vec3 x = place();
+            const double r = s.radius[n] * (probe % 2 ? 1.0 : 0.1);
+            bool expected = false;
+            for (std::size_t j = 0; j < n; ++j)
+                expected |= (s.position[j] - x).norm() < r + s.radius[j];
+            ASSERT_EQ(grid.overlaps(x, r), expected) << n << ' ' << probe;
+            overlapping += expected;
+        }
+        s.position.set(n, place());
+        grid.add(n);
+    }
+    EXPECT_GT(overlapping, 400);
+    EXPECT_LT(overlapping, 7600);
+}
+
+TEST(PlaceAtRandom, ManySpheresOfManySizesTakeSeconds) {
+    // A look at every sphere for each of the 5e5 places that are tried would be 1e10 distances.
+    std::vector<double> radii;
+    for (int i = 0; i < 40000; ++i) radii.push_back(0.05 / (1 + 0.002 * i));
+    core::ParticleStore s = spheres_of(radii, {});
+    const std::clock_t begin = std::clock();
+    place_at_random(s, 0.5, 0.5, 1.2, 1);
+    EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 5);
 }
 
 /// A block of 20 spheres with every property its own; the first touches the wall x = b_x.

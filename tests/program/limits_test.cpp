@@ -127,13 +127,15 @@ TEST(Limits, FilesWithoutEndAreRefused) {
 TEST(Limits, SpheresThatDoNotFitAreRefusedBeforePacking) {
     const Workplace place;
     const auto begin = std::chrono::steady_clock::now();
-    for (const std::vector<std::string>& keys :
-         {std::vector<std::string>{"packing.blocks=[1000,1000,1000]"},
-          {"packing.spheres=2000000000"},
-          {"grading.sieve_diameter=[2e-6,0.02,0.2]", "grading.passing=[0,10,100]"}}) {
+    for (const auto& [begins, keys] :
+         {std::pair<std::string, std::vector<std::string>>{"packing.blocks = [",
+                                                           {"packing.blocks=[1000,1000,1000]"}},
+          {"packing.spheres = 2000000000", {"packing.spheres=2000000000"}},
+          {"grading.sieve_diameter = [2e-06, ",
+           {"grading.sieve_diameter=[2e-6,0.02,0.2]", "grading.passing=[0,10,100]"}}}) {
         std::vector<std::string> words{"pack", "--out", place.path("P.h5")};
         for (const std::string& key : keys) words.insert(words.end(), {"--set", key});
-        expect_refused(place.run(words), 2, "packing.blocks = [");
+        expect_refused(place.run(words), 2, begins);
         EXPECT_FALSE(place.has("P.checkpoint.lock"));
     }
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));

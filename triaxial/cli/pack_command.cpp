@@ -28,6 +28,9 @@ void print_packing(const packing::Packing& p) {
     print_row("spheres",
               fmt::format("{} ({} in a block)", p.spheres.size(), p.block.spheres.size()));
     print_row("diameters scaled by", fmt::format("{:.5f}", p.block.grading.scale));
+    print_row("largest grain",
+              fmt::format("{:.2f} of the block's smallest side",
+                          p.block.grading.diameter.back() / p.options.block.minCoeff()));
     const auto achieved =
         packing::achieved_passing(p.block.grading.diameter, p.grading.sieve_diameter);
     for (std::size_t k = 0; k < achieved.size(); ++k)

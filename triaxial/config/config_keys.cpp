@@ -19,7 +19,8 @@ void add_keys(Keys& keys, packing::Grading& grading) {
 }
 
 void add_keys(Keys& keys, packing::PackingOptions& packing) {
-    auto& [seed, block, blocks, porosity, gravity, spheres, isotropic_stress] = packing;
+    auto& [seed, block, blocks, porosity, gravity, spheres, isotropic_stress, max_spheres] =
+        packing;
     keys.push_back({"packing.seed", slot(seed, 0), "of the block's draw and placing"});
     keys.push_back({"packing.block", slot(block, positive), "m"});
     keys.push_back({"packing.blocks", slot(blocks, 1), "in x, y, z"});
@@ -28,6 +29,8 @@ void add_keys(Keys& keys, packing::PackingOptions& packing) {
     keys.push_back({"packing.spheres", slot(spheres, 1), "optional: fixes the count of one block"});
     keys.push_back({"packing.isotropic_stress", slot(isotropic_stress, positive),
                     "Pa, optional: the sample is brought to it after settling"});
+    keys.push_back({"packing.max_spheres", slot(max_spheres, 1),
+                    "gradings of which more are expected in a block are refused"});
 }
 
 void add_keys(Keys& keys, WallOptions& wall) {

@@ -53,9 +53,11 @@ packing::Packing pack(const Config& config, core::Monitor& monitor, core::Checkp
 
 nlohmann::json packing_json(const packing::Packing& p, double wall_seconds) {
     const Eigen::Matrix3d& fabric = p.fabric.tensor;
+    const double largest = p.block.grading.diameter.back() / p.options.block.minCoeff();
     return {{"particles", p.spheres.size()},
             {"porosity", p.porosity},
             {"block_spheres", p.block.spheres.size()},
+            {"largest_grain_over_block", largest},
             {"block_porosity", p.block.porosity},
             {"block_settled_height_m", p.block.settled_height},
             {"block_mean_stress_Pa", p.block.mean_stress},
