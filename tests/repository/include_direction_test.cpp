@@ -40,7 +40,7 @@ TEST(IncludeChecker, KnowsEveryPairOfModules) {
                                               "1111100", "1111110", "1111111"};
     for (std::size_t from = 0; from < names.size(); ++from)
         for (std::size_t to = 0; to < names.size(); ++to)
-            for (const char* file : {"/a.cpp", "/a.hpp", "/deeper/a.inc"}) {
+            for (const char* file : {"/a.cpp", "/a.hpp", "/deeper/a.h"}) {
                 const std::string line = "#include \"" + names[to] + "/x.hpp\"";
                 EXPECT_EQ(faults_in(names[from] + file, line).empty(), allowed[from][to] == '1')
                     << names[from] << " -> " << names[to];
