@@ -129,31 +129,42 @@ HWY_INLINE Lane4<T> load4(const std::array<const T*, lanes<T> >& at, std::size_t
                           HWY_ATTR { return hn::LoadU(d, at[lane] + offset + o); });
 }
 
-/// Calls put(lane, offset, block) for every block of what is to be written or added.
-template <class T, class Put>
-HWY_INLINE void rows(Lane4<T> v, std::size_t offset, const Put& put) {
+/// Calls put(part, lane, offset, block) for every block of what is to be written or added: rows of
+/// all parts before the next row.
+template <class T, std::size_t Parts, class Put>
+HWY_INLINE void rows(std::array<Lane4<T>, Parts> v, std::size_t offset, const Put& put) {
+    const auto put_row = [&](std::size_t first, std::size_t o, const auto& row) HWY_ATTR {
+        for (std::size_t p = 0; p < Parts; ++p)
+            split<T>(row(p), [&](std::size_t q, auto block)
+                                 HWY_ATTR { put(p, block_lanes<T> * q + first, o, block); });
+    };
     if constexpr (sizeof(T) == 4) {
-        transpose(v.x, v.y, v.z, v.w);
-        split<T>(v.x, [&](std::size_t q, auto block) HWY_ATTR { put(4 * q, offset, block); });
-        split<T>(v.y, [&](std::size_t q, auto block) HWY_ATTR { put(4 * q + 1, offset, block); });
-        split<T>(v.z, [&](std::size_t q, auto block) HWY_ATTR { put(4 * q + 2, offset, block); });
-        split<T>(v.w, [&](std::size_t q, auto block) HWY_ATTR { put(4 * q + 3, offset, block); });
+        for (Lane4<T>& part : v) transpose(part.x, part.y, part.z, part.w);
+        put_row(0, offset, [&](std::size_t p) HWY_ATTR { return v[p].x; });
+        put_row(1, offset, [&](std::size_t p) HWY_ATTR { return v[p].y; });
+        put_row(2, offset, [&](std::size_t p) HWY_ATTR { return v[p].z; });
+        put_row(3, offset, [&](std::size_t p) HWY_ATTR { return v[p].w; });
     } else {
         const Tag<T> d;
-        const auto a = hn::InterleaveLower(d, v.x, v.y), b = hn::InterleaveUpper(d, v.x, v.y);
-        const auto c = hn::InterleaveLower(d, v.z, v.w), e = hn::InterleaveUpper(d, v.z, v.w);
-        split<T>(a, [&](std::size_t q, auto block) HWY_ATTR { put(2 * q, offset, block); });
-        split<T>(b, [&](std::size_t q, auto block) HWY_ATTR { put(2 * q + 1, offset, block); });
-        split<T>(c, [&](std::size_t q, auto block) HWY_ATTR { put(2 * q, offset + 2, block); });
-        split<T>(e, [&](std::size_t q, auto block) HWY_ATTR { put(2 * q + 1, offset + 2, block); });
+        const auto xy = [&](std::size_t p)
+                            HWY_ATTR { return hn::InterleaveLower(d, v[p].x, v[p].y); };
+        const auto xy_odd = [&](std::size_t p)
+                                HWY_ATTR { return hn::InterleaveUpper(d, v[p].x, v[p].y); };
+        const auto zw = [&](std::size_t p)
+                            HWY_ATTR { return hn::InterleaveLower(d, v[p].z, v[p].w); };
+        const auto zw_odd = [&](std::size_t p)
+                                HWY_ATTR { return hn::InterleaveUpper(d, v[p].z, v[p].w); };
+        put_row(0, offset, xy);
+        put_row(1, offset, xy_odd);
+        put_row(0, offset + 2, zw);
+        put_row(1, offset + 2, zw_odd);
     }
 }
-/// Adds to the four numbers at at[l] + offset, in a fixed order of the lanes: two lanes may point
-/// to the same place.
+/// Adds to the four numbers at at[l] + offset; no two lanes may point to the same place.
 template <class T>
 HWY_INLINE void add4(Lane4<T> v, const std::array<T*, lanes<T> >& at, std::size_t offset) {
     const Block<T> d;
-    rows<T>(v, offset, [&](std::size_t lane, std::size_t o, auto block) HWY_ATTR {
+    rows<T, 1>({v}, offset, [&](std::size_t, std::size_t lane, std::size_t o, auto block) HWY_ATTR {
         T* p = at[lane] + o;
         hn::StoreU(hn::Add(hn::LoadU(d, p), block), d, p);
     });

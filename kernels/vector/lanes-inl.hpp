@@ -104,16 +104,6 @@ HWY_INLINE std::uint32_t bits_of(LaneMask<T> mask) {
     return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
 }
 
-/// Sum of the lanes in double, in their order.
-template <class T>
-HWY_INLINE double sum_lanes(Lane<T> v) {
-    alignas(64) T lane[lanes<T>];
-    hn::Store(v, Tag<T>(), lane);
-    double sum = 0;
-    for (T value : lane) sum += static_cast<double>(value);
-    return sum;
-}
-
 }  // namespace grainfield::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

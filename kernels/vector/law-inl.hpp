@@ -9,7 +9,7 @@
 #endif
 
 #include "kernels/contact_kernels.hpp"
-#include "kernels/vector/lanes-inl.hpp"
+#include "kernels/vector/wide_sum-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainfield::kernels::HWY_NAMESPACE {
@@ -216,30 +216,30 @@ HWY_INLINE ShearLanes<T> load_shear(const TangentialLanes<T>& motion, Lane<T> ga
     return result;
 }
 
-/// ContactSums a lane: a domain's contacts are added up in vectors, all else in double.
+/// ContactSums a lane: a domain's contacts are added up in vectors, all else in double. `slot` is
+/// that of WideSum.
 template <class T>
 struct LaneSums {
-    Lane<T> normal_force, elastic_normal, elastic_shear, friction_work;
+    WideSum<T> normal_force, elastic_normal, elastic_shear, friction_work;
     std::int64_t contacts = 0;
 
-    HWY_INLINE LaneSums() {
-        normal_force = elastic_normal = elastic_shear = friction_work = hn::Zero(Tag<T>());
-    }
-    HWY_INLINE void add_normal(LaneMask<T> counted, Lane<T> force, Lane<T> overlap) {
+    HWY_INLINE LaneSums() {}  // one of the compiler's own would be for no target
+    HWY_INLINE void add_normal(std::size_t slot, LaneMask<T> counted, Lane<T> force,
+                               Lane<T> overlap) {
         const auto mine = hn::IfThenElseZero(counted, force);
-        normal_force = hn::Add(normal_force, mine);
-        elastic_normal = hn::MulAdd(mine, overlap, elastic_normal);  // twice: total() halves it
+        normal_force.add(slot, mine);
+        elastic_normal.add_product(slot, mine, overlap);  // twice: total() halves it
     }
-    HWY_INLINE void add_shear(LaneMask<T> counted, const ShearLanes<T>& spring) {
-        elastic_shear = hn::Add(elastic_shear, hn::IfThenElseZero(counted, spring.elastic));
-        friction_work = hn::Add(friction_work, hn::IfThenElseZero(counted, spring.slipped));
+    HWY_INLINE void add_shear(std::size_t slot, LaneMask<T> counted, const ShearLanes<T>& spring) {
+        elastic_shear.add(slot, hn::IfThenElseZero(counted, spring.elastic));
+        friction_work.add(slot, hn::IfThenElseZero(counted, spring.slipped));
     }
     HWY_INLINE ContactSums total() const {
         ContactSums sums;
-        sums.normal_force = sum_lanes<T>(normal_force);
-        sums.elastic_normal = 0.5 * sum_lanes<T>(elastic_normal);
-        sums.elastic_shear = sum_lanes<T>(elastic_shear);
-        sums.friction_work = sum_lanes<T>(friction_work);
+        sums.normal_force = normal_force.total();
+        sums.elastic_normal = 0.5 * elastic_normal.total();
+        sums.elastic_shear = elastic_shear.total();
+        sums.friction_work = friction_work.total();
         sums.contacts = contacts;
         return sums;
     }

@@ -10,6 +10,7 @@
 
 #include "kernels/vector/record_lanes-inl.hpp"
 #include "kernels/vector/vector_kernels.hpp"
+#include "kernels/vector/wide_sum-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainfield::kernels::HWY_NAMESPACE {
@@ -114,7 +115,7 @@ MoveResult move_records(SphereRecord<T>* records, const SphereLoad<T>* loads,
     const Lane3<T> gravity = set3<T>(p.gravity);
     const Lane3<T> shift = set3<T>(p.affine_shift), scale = set3<T>(p.affine_scale);
     auto used = zero;
-    [[maybe_unused]] auto twice_work = zero;
+    [[maybe_unused]] WideSum<T> twice_work;
     auto sane = hn::Eq(zero, zero);
     for (std::size_t k = 0; k < count; k += n) {
         std::array<Lane<T>, 16> record = load_columns<T>(records + k);
@@ -128,7 +129,7 @@ MoveResult move_records(SphereRecord<T>* records, const SphereLoad<T>* loads,
         const auto step_work = [&](Lane<T> taken, Lane<T> before, Lane<T> after) HWY_ATTR {
             // Half a step of the old velocity and half a step of the new.
             const auto way = hn::MulAdd(old_step, before, hn::Mul(step, after));
-            twice_work = hn::MulAdd(taken, way, twice_work);
+            twice_work.add_product(slot_of<T>(k), taken, way);
         };
         const Lane3<T> v0 = v;
         v.x = kick.apply(force.x, v.x, damped.x);
@@ -180,7 +181,7 @@ MoveResult move_records(SphereRecord<T>* records, const SphereLoad<T>* loads,
         const auto share = of_bodies(bodies.inverse_buffer, k);
         used = hn::Max(used, hn::Mul(dot(beyond, beyond), hn::Mul(share, share)));
     }
-    if constexpr (Damping && Ledger) result.damping_work = 0.5 * sum_lanes<T>(twice_work);
+    if constexpr (Damping && Ledger) result.damping_work = 0.5 * twice_work.total();
     alignas(64) T lane[n];
     hn::Store(used, d, lane);
     for (T value : lane)

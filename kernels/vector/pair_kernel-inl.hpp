@@ -63,6 +63,7 @@ struct PairBatch {
     Approach<T> approach;
     Lane3<T> force;
     std::uint32_t touching;  ///< a bit a lane
+    std::size_t slot;        ///< of WideSum
 };
 
 /// True if an overlap of the batch exceeds half the smaller radius; called where one exceeds half
@@ -170,7 +171,7 @@ HWY_INLINE void force_batch(const PairCall<T>& call, PairBatch<T>& batch, LaneSu
     [[maybe_unused]] LaneMask<T> counted;
     if constexpr (Sums) {
         counted = below<T>(batch.a, call.parameters.counted);
-        sums.add_normal(counted, fn, pair.overlap);
+        sums.add_normal(batch.slot, counted, fn, pair.overlap);
         sums.contacts += __builtin_popcount(batch.touching & bits_of<T>(counted));
     }
     // The force on the centres does the work of the spring, whose lever arms are the radii.
@@ -184,20 +185,25 @@ HWY_INLINE void force_batch(const PairCall<T>& call, PairBatch<T>& batch, LaneSu
                                 hn::Mul(batch.friction, fn));
         batch.shear = spring.shear;
         batch.force = plus_scaled(batch.force, lever, spring.shear);
-        if constexpr (Sums) sums.add_shear(counted, spring);
+        if constexpr (Sums) sums.add_shear(batch.slot, counted, spring);
     }
 }
 
-/// Last stage: onto the loads of both spheres.
+/// Last stage: onto the loads of both spheres, of as many batches as are added together.
 template <class T, bool Friction>
-HWY_INLINE void load_batch(const PairCall<T>& call, const PairBatch<T>& batch) {
+HWY_INLINE void load_batches(const PairCall<T>& call, const PairBatch<T>* batches) {
     const auto zero = hn::Zero(Tag<T>());
-    Lane3<T> moment{zero, zero, zero};
-    if constexpr (Friction) moment = cross(batch.pair.normal, batch.shear);
-    add_pair_loads<T>(call.loads, batch.a, batch.b, batch.force, moment);
+    std::array<LoadedPairs<T>, parts_of_load<T>> pairs;
+    for (std::size_t q = 0; q < parts_of_load<T>; ++q) {
+        const PairBatch<T>& batch = batches[q];
+        Lane3<T> moment{zero, zero, zero};
+        if constexpr (Friction) moment = cross(batch.pair.normal, batch.shear);
+        pairs[q] = {batch.a, batch.b, batch.force, moment};
+    }
+    add_pair_loads<T>(call.loads, pairs);
 }
 
-/// All stages but the first, of `count` batches.
+/// All stages but the first, of `count` batches, a multiple of parts_of_load.
 template <class T, bool Friction, bool Sums, bool Replay>
 HWY_INLINE void finish_batches(const PairCall<T>& call, PairBatch<T>* batches, std::size_t count,
                                LaneSums<T>& sums) {
@@ -205,7 +211,8 @@ HWY_INLINE void finish_batches(const PairCall<T>& call, PairBatch<T>* batches, s
         for (std::size_t q = 0; q < count; ++q) motion_batch<T>(call, batches[q]);
     for (std::size_t q = 0; q < count; ++q)
         force_batch<T, Friction, Sums, Replay>(call, batches[q], sums);
-    for (std::size_t q = 0; q < count; ++q) load_batch<T, Friction>(call, batches[q]);
+    for (std::size_t q = 0; q < count; q += parts_of_load<T>)
+        load_batches<T, Friction>(call, batches + q);
 }
 
 /// Candidates that are close: one batch after the other, history in place.
@@ -238,6 +245,7 @@ HWY_INLINE void close_forces(const PairCall<T>& call, bool& too_deep, LaneSums<T
             PairBatch<T>& batch = batches[q];
             batch.a = c.a + k;
             batch.b = c.b + k;
+            batch.slot = slot_of<T>(k);
             if constexpr (Friction)
                 batch.shear = {load_component(c.history, k, 0, history_size),
                                load_component(c.history, k, 1, history_size),
@@ -293,50 +301,67 @@ HWY_INLINE std::size_t find_touching(const PairCall<T>& call) {
     return found;
 }
 
+/// A batch of candidates picked out, with what they have in the columns.
+template <class T>
+struct PickedBatch {
+    std::array<std::int32_t, lanes<T>> a, b;
+    alignas(64) T separation[separation_size][lanes<T>], history[history_size][lanes<T>];
+};
+
 /// The candidates picked out by find_touching().
 template <class T, bool Friction, bool PerSphere, bool Sums, bool Replay>
 HWY_INLINE void picked_forces(const PairCall<T>& call, bool& too_deep, LaneSums<T>& sums,
                               PassResult& result) {
-    constexpr std::size_t n = lanes<T>;
+    constexpr std::size_t n = lanes<T>, parts = parts_of_load<T>;
     const Tag<T> d;
     const Candidates<T>& c = call.candidates;
     const std::size_t picked = find_touching<T>(call);
     result.contacts += static_cast<std::int64_t>(picked);
-    for (std::size_t l = 0; l < n; ++l) c.scratch[picked + l] = static_cast<std::int32_t>(c.idle);
-    for (std::size_t k = 0; k < picked; k += n) {
-        std::array<std::int32_t, n> a, b;
-        alignas(64) T separation[separation_size][n], history[history_size][n];
-        for (std::size_t l = 0; l < n; ++l) {
-            const auto at = static_cast<std::size_t>(c.scratch[k + l]);
-            a[l] = c.a[at];
-            b[l] = c.b[at];
-            for (std::size_t s = 0; s < separation_size; ++s)
-                separation[s][l] = c.separation[in_block(at, s, separation_size)];
+    for (std::size_t l = 0; l < parts * n; ++l)
+        c.scratch[picked + l] = static_cast<std::int32_t>(c.idle);
+    for (std::size_t k = 0; k < picked; k += parts * n) {
+        PickedBatch<T> from[parts];
+        PairBatch<T> batches[parts];
+        const auto place = [&](std::size_t q, std::size_t l) HWY_ATTR {
+            return static_cast<std::size_t>(c.scratch[k + q * n + l]);
+        };
+        for (std::size_t q = 0; q < parts; ++q) {
+            PickedBatch<T>& picked_here = from[q];
+            for (std::size_t l = 0; l < n; ++l) {
+                const std::size_t at = place(q, l);
+                picked_here.a[l] = c.a[at];
+                picked_here.b[l] = c.b[at];
+                for (std::size_t s = 0; s < separation_size; ++s)
+                    picked_here.separation[s][l] = c.separation[in_block(at, s, separation_size)];
+                if constexpr (Friction)
+                    for (std::size_t s = 0; s < history_size; ++s)
+                        picked_here.history[s][l] = c.history[in_block(at, s, history_size)];
+            }
+            PairBatch<T>& batch = batches[q];
+            batch.a = picked_here.a.data();
+            batch.b = picked_here.b.data();
+            batch.slot = slot_of<T>(k + q * n);
             if constexpr (Friction)
-                for (std::size_t s = 0; s < history_size; ++s)
-                    history[s][l] = c.history[in_block(at, s, history_size)];
+                batch.shear = {hn::Load(d, picked_here.history[0]),
+                               hn::Load(d, picked_here.history[1]),
+                               hn::Load(d, picked_here.history[2])};
+            approach_batch<T, Friction, PerSphere>(
+                call,
+                {hn::Load(d, picked_here.separation[0]), hn::Load(d, picked_here.separation[1]),
+                 hn::Load(d, picked_here.separation[2]), hn::Load(d, picked_here.separation[3])},
+                batch, too_deep);
         }
-        PairBatch<T> batch;
-        batch.a = a.data();
-        batch.b = b.data();
-        if constexpr (Friction)
-            batch.shear = {hn::Load(d, history[0]), hn::Load(d, history[1]),
-                           hn::Load(d, history[2])};
-        approach_batch<T, Friction, PerSphere>(
-            call,
-            {hn::Load(d, separation[0]), hn::Load(d, separation[1]), hn::Load(d, separation[2]),
-             hn::Load(d, separation[3])},
-            batch, too_deep);
-        finish_batches<T, Friction, Sums, Replay>(call, &batch, 1, sums);
-        if constexpr (Friction && !Replay) {
-            hn::Store(batch.shear.x, d, history[0]);
-            hn::Store(batch.shear.y, d, history[1]);
-            hn::Store(batch.shear.z, d, history[2]);
-            for (std::size_t l = 0; l < n; ++l)
-                for (std::size_t s = 0; s < history_size; ++s)
-                    c.history[in_block(static_cast<std::size_t>(c.scratch[k + l]), s,
-                                       history_size)] = history[s][l];
-        }
+        finish_batches<T, Friction, Sums, Replay>(call, batches, parts, sums);
+        if constexpr (Friction && !Replay)
+            for (std::size_t q = 0; q < parts; ++q) {
+                auto& history = from[q].history;
+                hn::Store(batches[q].shear.x, d, history[0]);
+                hn::Store(batches[q].shear.y, d, history[1]);
+                hn::Store(batches[q].shear.z, d, history[2]);
+                for (std::size_t l = 0; l < n; ++l)
+                    for (std::size_t s = 0; s < history_size; ++s)
+                        c.history[in_block(place(q, l), s, history_size)] = history[s][l];
+            }
     }
 }
 

@@ -37,6 +37,21 @@ alignas(128) inline constexpr T pair_signs[16] = {-1, -1, -1, 1, -1, -1, -1, 1,
 template <class T>
 alignas(64) inline constexpr T load_signs[8] = {-1, -1, -1, -1, 1, 1, 1, 1};
 
+/// Contacts of a vector with what they add to the loads of their spheres.
+template <class T>
+struct LoadedPairs {
+    const std::int32_t *a, *b;  ///< records
+    Lane3<T> force, moment;     ///< on a; over the radius
+};
+/// Vectors that are added to loads together: as many as make one of the widest ones.
+#if HWY_TARGET == HWY_SCALAR
+template <class T>
+inline constexpr std::size_t parts_of_load = 1;
+#else
+template <class T>
+inline constexpr std::size_t parts_of_load = 64 / sizeof(T) / lanes<T>;
+#endif
+
 #if HWY_TARGET == HWY_SCALAR
 
 template <class T, bool SmallerFriction>
@@ -75,14 +90,16 @@ HWY_INLINE void store_columns(const std::array<Lane<T>, 16>& column, SphereRecor
     for (std::size_t c = 0; c < 16; ++c) hn::Store(column[c], Tag<T>(), rows->u + c);
 }
 template <class T>
-HWY_INLINE void add_pair_loads(SphereLoad<T>* loads, const std::int32_t* a, const std::int32_t* b,
-                               Lane3<T> force, Lane3<T> moment) {
+HWY_INLINE void add_pair_loads(SphereLoad<T>* loads,
+                               const std::array<LoadedPairs<T>, parts_of_load<T>>& pairs) {
     const Lane<T> zero = hn::Zero(Tag<T>());
-    T *la = load_of(loads, *a).force, *lb = load_of(loads, *b).force;
-    add4<T>({force.x, force.y, force.z, zero}, {la}, 0);
-    add4<T>({moment.x, moment.y, moment.z, zero}, {la}, 4);
-    add4<T>({hn::Neg(force.x), hn::Neg(force.y), hn::Neg(force.z), zero}, {lb}, 0);
-    add4<T>({moment.x, moment.y, moment.z, zero}, {lb}, 4);
+    const LoadedPairs<T>& p = pairs[0];
+    T *la = load_of(loads, *p.a).force, *lb = load_of(loads, *p.b).force;
+    const Lane3<T>&f = p.force, &m = p.moment;
+    add4<T>({f.x, f.y, f.z, zero}, {la}, 0);
+    add4<T>({m.x, m.y, m.z, zero}, {la}, 4);
+    add4<T>({hn::Neg(f.x), hn::Neg(f.y), hn::Neg(f.z), zero}, {lb}, 0);
+    add4<T>({m.x, m.y, m.z, zero}, {lb}, 4);
 }
 
 #else
@@ -155,53 +172,66 @@ HWY_INLINE void store_columns(std::array<Lane<T>, 16> column, SphereRecord<T>* r
     }
 }
 
-/// Adds force and moment of every lane's contact to the loads of its two spheres, the force with
-/// the other sign to the second; in the order of the lanes.
+/// Adds force and moment of every contact to the loads of its two spheres, the force with the other
+/// sign to the second. The order, in which spheres come that have several of the contacts, is that
+/// of the widest vectors: rows of their blocks, one after the other. So it is the same for every
+/// width, and spheres in neighbouring lanes, often the same ones, do not wait for each other.
 template <class T>
-HWY_INLINE void add_pair_loads(SphereLoad<T>* loads, const std::int32_t* a, const std::int32_t* b,
-                               Lane3<T> force, Lane3<T> moment) {
+HWY_INLINE void add_pair_loads(SphereLoad<T>* loads,
+                               const std::array<LoadedPairs<T>, parts_of_load<T>>& pairs) {
+    constexpr std::size_t parts = parts_of_load<T>;
     const Lane<T> zero = hn::Zero(Tag<T>());
-    Lane4<T> f{force.x, force.y, force.z, zero}, m{moment.x, moment.y, moment.z, zero};
     if constexpr (sizeof(T) == 4 && 1 < blocks<T>) {
         // A load of eight floats at once: blocks of force and moment side by side.
         const hn::FixedTag<T, 8> d;
-        transpose(f.x, f.y, f.z, f.w);
-        transpose(m.x, m.y, m.z, m.w);
         const auto signs = hn::Load(d, load_signs<T>);
-        const auto add = [&](std::size_t lane, auto sum) HWY_ATTR {
-            T* first = load_of(loads, a[lane]).force;
-            hn::Store(hn::Add(hn::Load(d, first), sum), d, first);
-            T* second = load_of(loads, b[lane]).force;
-            hn::Store(hn::MulAdd(sum, signs, hn::Load(d, second)), d, second);
-        };
-        const auto row = [&](std::size_t first, Lane<T> force_row, Lane<T> moment_row) HWY_ATTR {
-            const auto even = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(moment_row), force_row);
-            const auto odd = hn::OddEvenBlocks(moment_row, hn::SwapAdjacentBlocks(force_row));
-            if constexpr (blocks<T> == 2) {
-                add(first, even);
-                add(first + 4, odd);
-            } else {
-                add(first, hn::LowerHalf(d, even));
-                add(first + 4, hn::LowerHalf(d, odd));
-                add(first + 8, hn::UpperHalf(d, even));
-                add(first + 12, hn::UpperHalf(d, odd));
+        Lane<T> force[parts][4], moment[parts][4];
+        for (std::size_t p = 0; p < parts; ++p) {
+            const Lane3<T>&f = pairs[p].force, &m = pairs[p].moment;
+            Lane<T>*fr = force[p], *mr = moment[p];
+            fr[0] = f.x, fr[1] = f.y, fr[2] = f.z, fr[3] = zero;
+            mr[0] = m.x, mr[1] = m.y, mr[2] = m.z, mr[3] = zero;
+            transpose(fr[0], fr[1], fr[2], fr[3]);
+            transpose(mr[0], mr[1], mr[2], mr[3]);
+        }
+        for (std::size_t r = 0; r < 4; ++r)
+            for (std::size_t p = 0; p < parts; ++p) {
+                const auto add = [&](std::size_t lane, auto sum) HWY_ATTR {
+                    T* first = load_of(loads, pairs[p].a[lane]).force;
+                    hn::Store(hn::Add(hn::Load(d, first), sum), d, first);
+                    T* second = load_of(loads, pairs[p].b[lane]).force;
+                    hn::Store(hn::MulAdd(sum, signs, hn::Load(d, second)), d, second);
+                };
+                const auto f = force[p][r], m = moment[p][r];
+                const auto even = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(m), f);
+                const auto odd = hn::OddEvenBlocks(m, hn::SwapAdjacentBlocks(f));
+                if constexpr (blocks<T> == 2) {
+                    add(r, even);
+                    add(r + 4, odd);
+                } else {
+                    add(r, hn::LowerHalf(d, even));
+                    add(r + 4, hn::LowerHalf(d, odd));
+                    add(r + 8, hn::UpperHalf(d, even));
+                    add(r + 12, hn::UpperHalf(d, odd));
+                }
             }
-        };
-        row(0, f.x, m.x);
-        row(1, f.y, m.y);
-        row(2, f.z, m.z);
-        row(3, f.w, m.w);
     } else {
         const Block<T> d;
-        const auto put = [&](std::size_t lane, std::size_t o, auto block) HWY_ATTR {
-            T* first = load_of(loads, a[lane]).force + o;
-            hn::StoreU(hn::Add(hn::LoadU(d, first), block), d, first);
-            T* second = load_of(loads, b[lane]).force + o;
-            const auto signs = hn::LoadU(d, load_signs<T> + o);
-            hn::StoreU(hn::MulAdd(block, signs, hn::LoadU(d, second)), d, second);
-        };
-        rows<T>(f, 0, put);
-        rows<T>(m, 4, put);
+        for (const std::size_t o : {std::size_t{0}, std::size_t{4}}) {
+            std::array<Lane4<T>, parts> v;
+            for (std::size_t p = 0; p < parts; ++p) {
+                const Lane3<T>& whole = o == 0 ? pairs[p].force : pairs[p].moment;
+                v[p] = {whole.x, whole.y, whole.z, zero};
+            }
+            rows<T>(v, o,
+                    [&](std::size_t p, std::size_t lane, std::size_t offset, auto block) HWY_ATTR {
+                        T* first = load_of(loads, pairs[p].a[lane]).force + offset;
+                        hn::StoreU(hn::Add(hn::LoadU(d, first), block), d, first);
+                        T* second = load_of(loads, pairs[p].b[lane]).force + offset;
+                        const auto signs = hn::LoadU(d, load_signs<T> + offset);
+                        hn::StoreU(hn::MulAdd(block, signs, hn::LoadU(d, second)), d, second);
+                    });
+        }
     }
 }
 

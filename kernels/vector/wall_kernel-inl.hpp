@@ -39,14 +39,13 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
     const auto uniform_kn = set<T>(over_radius(p.uniform_stiffness, wall.stiffness));
     const auto uniform_ks = set<T>(
         springs ? over_radius(double{p.stiffness_ratio} * p.uniform_stiffness, ks_wall) : T(0));
-    Lane3<T> sum{zero, zero, zero};
-    auto stiffness_sum = zero;
+    WideSum<T> sum_x, sum_y, sum_z, stiffness_sum;
     auto too_deep = hn::Lt(zero, zero);
     LaneSums<T> sums;
     for (std::size_t word = 0; word < c.size / most_lanes; ++word) {
         std::uint32_t now = 0;
         for (std::size_t part = 0; part < most_lanes; part += n) {
-            const std::size_t k = word * most_lanes + part;
+            const std::size_t k = word * most_lanes + part, slot = slot_of<T>(k);
             std::array<const T*, n> at;
             std::array<T*, n> load;
             for (std::size_t l = 0; l < n; ++l) {
@@ -96,7 +95,7 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
                 hn::Store(hn::IfThenElse(touching, spring.shear.z, before.z), d,
                           history + 2 * most_lanes);
                 shear = spring.shear;
-                if constexpr (Sums) sums.add_shear(touching, spring);
+                if constexpr (Sums) sums.add_shear(slot, touching, spring);
             }
             if constexpr (Friction) {
                 shear = {hn::IfThenElseZero(touching, shear.x),
@@ -107,10 +106,12 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
                 add4<T>({moment.x, moment.y, moment.z, zero}, load, 4);
             }
             add4<T>({force.x, force.y, force.z, hn::IfThenElseZero(touching, one)}, load, 0);
-            sum = sum + force;
-            stiffness_sum = hn::Add(stiffness_sum, kn);
+            sum_x.add(slot, force.x);
+            sum_y.add(slot, force.y);
+            sum_z.add(slot, force.z);
+            stiffness_sum.add(slot, kn);
             result.contacts += __builtin_popcount(bits);
-            if constexpr (Sums) sums.add_normal(touching, fn, overlap);
+            if constexpr (Sums) sums.add_normal(slot, touching, fn, overlap);
         }
         for (std::uint32_t opened = c.touching[word] & ~now; opened != 0; opened &= opened - 1) {
             const std::size_t k =
@@ -131,8 +132,8 @@ PassResult wall_forces(const SphereRecord<T>* records, const WallPlane<T>& wall,
     if constexpr (Sums) result.sums += sums.total();
     result.sums.contacts = result.contacts;
     result.too_deep = !hn::AllFalse(d, too_deep);
-    total.force -= Vec3(sum_lanes<T>(sum.x), sum_lanes<T>(sum.y), sum_lanes<T>(sum.z));
-    total.stiffness += sum_lanes<T>(stiffness_sum);
+    total.force -= Vec3(sum_x.total(), sum_y.total(), sum_z.total());
+    total.stiffness += stiffness_sum.total();
     total.contacts += result.contacts;
     return result;
 }
