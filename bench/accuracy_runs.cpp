@@ -11,14 +11,12 @@
 #include <thread>
 
 #include "core/base/errors.hpp"
-#include "core/base/random.hpp"
 #include "core/kernel_choice.hpp"
 #include "triaxial/realization/packing_files.hpp"
+#include "triaxial/realization/repeated_start.hpp"
 
 namespace grainfield::bench {
 namespace {
-
-constexpr double disturbance = 1e-12;  // of the start positions [m]
 
 // The full sample at COV 2 has a median of max k_n / min k_n of 1900 where blocks are uncorrelated;
 // a sample this small falls short of that. Of the first 200 realizations this one differs most
@@ -31,20 +29,6 @@ double thread_seconds() {
     timespec now{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// Moves every sphere by less than 1e-12 m along each axis.
-void disturb(core::ParticleStore& spheres, int repeat) {
-    if (repeat == 0) return;
-    const core::RandomStream random(1, core::Stream::perturbation);
-    for (std::size_t i = 0; i < spheres.size(); ++i) {
-        Vec3 x = spheres.position[i];
-        for (int axis = 0; axis < 3; ++axis)
-            x[axis] += disturbance * (2 * random.uniform(static_cast<std::uint64_t>(repeat),
-                                                         3 * i + static_cast<std::uint64_t>(axis)) -
-                                      1);
-        spheres.position.set(i, x);
-    }
 }
 
 /// Deviator stress at evenly spaced strains up to `last_strain`, interpolated [Pa].
@@ -69,8 +53,7 @@ Run run_once(const Task& task) {
     triaxial::Config config = task.series->config;
     config.time.safety = task.setting.safety;
     config.time.mass_scaling = task.setting.mass_scaling;
-    triaxial::Sample sample = task.series->sample;
-    disturb(sample.spheres, task.repeat);
+    triaxial::Sample sample = triaxial::start_of_repeat(task.series->sample, 1, task.repeat);
 
     Run run;
     core::Monitor silent;

@@ -13,6 +13,7 @@
 #include "bench/rate_limit.hpp"
 #include "bench/rate_runs.hpp"
 #include "core/files/atomic_file.hpp"
+#include "triaxial/realization/quality.hpp"
 #include "triaxial/report/gnuplot.hpp"
 
 namespace {
@@ -66,11 +67,22 @@ Steps steps_of(const RateSample& sample, double damping) {
 std::string price(const Study& study, std::size_t d, double share) {
     const RateSample& sample = *study.sample;
     const double rate = study.peak.rate_within(d, share);
+    double slowest = bench::study_rates.front();
+    for (const RateCell& cell : sample.cells)
+        if (cell.damping == sample.dampings[d]) slowest = std::min(slowest, cell.rate);
+    if (rate < slowest) return fmt::format("below {}/s | –", slowest);
     const Steps steps = steps_of(sample, sample.dampings[d]);
     if (rate > bench::study_rates.front())
         return fmt::format("above {}/s | below {:.2f}", bench::study_rates.front(),
                            steps.at(bench::study_rates.front()) / steps.at(0.1));
     return fmt::format("{:.2g}/s | {:.2g}", rate, steps.at(rate) / steps.at(0.1));
+}
+
+/// "227.7 | 226.1 to 229.3"; a dash where the tests do not tell.
+std::string limit_text(const RateLimit& limit, double scale) {
+    if (limit.high - limit.low > 0.5 * limit.value) return "– | –";
+    return fmt::format("{:.1f} | {:.1f} to {:.1f}", scale * limit.value, scale * limit.low,
+                       scale * limit.high);
 }
 
 std::string summary_table(const std::vector<Study>& studies) {
@@ -80,14 +92,36 @@ std::string summary_table(const std::vector<Study>& studies) {
     for (const Study& s : studies) {
         const RateSample& sample = *s.sample;
         const RateCell& first = sample.cells.front();
-        fmt::format_to(
-            std::back_inserter(text),
-            "| {} | {:.0f} | {:.2g} | {:.1f} | {:.1f} to {:.1f} | {:.1f} % | {:.1f} | {:.1f} to "
-            "{:.1f} |\n",
-            sample.name, first.mean(&RateRun::spheres),
-            first.mean(&RateRun::inertial_number) * 0.1 / first.rate, s.peak.value / 1e3,
-            s.peak.low / 1e3, s.peak.high / 1e3, 100 * sample.scatter(&RateRun::peak),
-            s.E50.value / 1e6, s.E50.low / 1e6, s.E50.high / 1e6);
+        fmt::format_to(std::back_inserter(text), "| {} | {:.0f} | {:.2g} | {} | {:.1f} % | {} |\n",
+                       sample.name, first.mean(&RateRun::spheres),
+                       first.mean(&RateRun::inertial_number) * 0.1 / first.rate,
+                       limit_text(s.peak, 1e-3), 100 * sample.scatter(&RateRun::peak),
+                       limit_text(s.E50, 1e-6));
+    }
+    return text;
+}
+
+/// How far off the tests are that count as quasi-static, and the others.
+std::string quasi_static_table(const std::vector<Study>& studies) {
+    std::string text =
+        "| sample | quasi-static | farthest off | not so | of these within 5 % |\n"
+        "|---|--:|--:|--:|--:|\n";
+    for (const Study& s : studies) {
+        std::size_t inside = 0, outside = 0, near = 0;
+        double worst = 0;
+        for (const RateCell& cell : s.sample->cells) {
+            const double off = cell.mean(&RateRun::peak) / s.peak.value - 1;
+            if (cell.mean(&RateRun::inertial_number) <= triaxial::quasi_static_inertial_number &&
+                cell.mean(&RateRun::damping_share) <= triaxial::quasi_static_damping_share) {
+                ++inside;
+                if (std::abs(off) > std::abs(worst)) worst = off;
+            } else {
+                ++outside;
+                near += std::abs(off) <= 0.05 ? 1u : 0u;
+            }
+        }
+        text += fmt::format("| {} | {} | {:+.1f} % | {} | {} |\n", s.sample->name, inside,
+                            100 * worst, outside, near);
     }
     return text;
 }
@@ -161,7 +195,8 @@ std::string page(const std::vector<Study>& studies) {
         "By `./dev bench rate` at 100 kPa: each sample sheared until `max_axial_strain = \"auto\"` "
         "ends the test, at rates from 0.4 to 0.002/s and local damping of forces and moments from "
         "0.05 to 0.8. A mean ± deviation is that of three tests whose start positions differ by "
-        "1e-12 m; the slowest ran once. A star: no test saw a peak before 15 % of axial strain, "
+        "1e-12 m; below 0.02/s each ran once. A star: no test saw a peak before 15 % of axial "
+        "strain, "
         "the value is the largest up to there.\n\n"
         "![Largest deviator stress and share of damping over the rate](rate.png)\n\n"
         "**The limit.** An endlessly slow test has no vibration that damping could take, so there "
@@ -170,10 +205,19 @@ std::string page(const std::vector<Study>& studies) {
         "squares over all tests of a sample; the intervals are those of the profile likelihood, "
         "with the scatter of single runs as measured, widened where the laws fit worse than that "
         "scatter allows.\n\n";
-    text += summary_table(studies) +
-            "\n**What it costs.** By these laws, for the largest q; steps are those of the whole "
-            "test. The limit's own interval comes on top.\n\n" +
-            price_table(studies);
+    text +=
+        summary_table(studies) +
+        "\nA dash: the tests do not tell it. E50 of samples that harden to the end is read at "
+        "half of a noisy plateau.\n\n**What it costs.** By these laws, for the largest q; steps "
+        "are those of the whole "
+        "test. The limit's own interval comes on top.\n\n" +
+        price_table(studies) +
+        fmt::format(
+            "\n**Quasi-static** is called a test with an inertial number of at most {:g} in "
+            "which numerical damping took at most {:g} % of the dissipated energy. Rates and "
+            "dampings of the study, and how far the largest q is off the limit:\n\n",
+            triaxial::quasi_static_inertial_number, 100 * triaxial::quasi_static_damping_share) +
+        quasi_static_table(studies);
     for (const Study& s : studies) text += sample_section(*s.sample);
     return text;
 }
@@ -206,7 +250,9 @@ std::string picture(const std::vector<Study>& studies) {
     for (const Study& s : studies) {
         names.push_back(s.sample->name);
         limits.row(s.peak.value / 1e3, s.peak.low / 1e3, s.peak.high / 1e3);
-        for (const double damping : s.sample->dampings) {
+        // The damping's place among those of the first sample is its colour.
+        for (const double damping : studies.front().sample->dampings) {
+            points.row(std::nan(""), std::nan(""), 0.0, std::nan(""));  // at least one
             for (const RateCell& cell : s.sample->cells)
                 if (cell.damping == damping)
                     points.row(cell.rate, cell.mean(&RateRun::peak) / 1e3,
@@ -214,7 +260,7 @@ std::string picture(const std::vector<Study>& studies) {
                                100 * cell.mean(&RateRun::damping_share));
             points.end_part();
         }
-        counts.push_back(static_cast<double>(s.sample->dampings.size()));
+        counts.push_back(static_cast<double>(studies.front().sample->dampings.size()));
     }
     for (const double damping : studies.front().sample->dampings)
         dampings.push_back(fmt::format("{}", damping));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace grainfield::bench {
 namespace {
@@ -66,13 +67,14 @@ double RateLimit::rate_within(std::size_t damping, double share) const {
 }
 
 RateLimit rate_limit(std::span<const RatePoint> points, std::size_t dampings, double deviation) {
+    if (!(deviation > 0)) throw std::invalid_argument("rate_limit: no scatter of single runs");
     const auto [least, most] =
         std::ranges::minmax(points, {}, [](const RatePoint& p) { return p.value; });
     std::vector<Powers> powers;
     for (std::size_t d = 0; d < dampings; ++d) powers.emplace_back(points, d);
     // A grid: the profile has kinks where the exponent of a damping reaches its bounds.
     constexpr int steps = 2000;
-    const double from = 0.3 * least.value, step = (most.value - from) / steps;
+    const double from = 0.3 * least.value, step = (1.3 * most.value - from) / steps;
     std::vector<double> profile;
     for (int k = 0; k <= steps; ++k)
         profile.push_back(chi_square(powers, from + k * step, deviation));

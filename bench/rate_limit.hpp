@@ -35,8 +35,9 @@ struct RateLimit {
 /// rate of its own, of either sign, for each damping. Least squares over all points, `deviation`
 /// [as the result] being that of one run; the interval is that of the profile likelihood, widened
 /// by the misfit where that is above 1. Exponents are looked for in [0.3, 1.2]: rates in this range
-/// have a say on the limit, others would be a constant or nothing at the slowest tests. Three
-/// points of different rates a damping are needed.
+/// have a say on the limit, others would be a constant or nothing at the slowest tests; limits from
+/// 0.3 times the least value to 1.3 times the largest. Three points of different rates a damping
+/// are needed. std::invalid_argument where the deviation is not above 0.
 RateLimit rate_limit(std::span<const RatePoint> points, std::size_t dampings, double deviation);
 
 }  // namespace grainfield::bench

@@ -35,7 +35,10 @@ RateRun read_run(const fs::path& folder) {
 std::vector<RateRun> read_runs(const fs::path& folder) {
     std::vector<RateRun> runs;
     if (!fs::exists(folder / "report.html")) return runs;  // not finished
-    if (fs::exists(folder / "summary.json")) runs.push_back(read_run(folder));
+    if (fs::exists(folder / "summary.json")) {
+        runs.push_back(read_run(folder));
+        return runs;
+    }
     for (int k = 0; fs::exists(folder / fmt::format("repeat{}", k) / "summary.json"); ++k)
         runs.push_back(read_run(folder / fmt::format("repeat{}", k)));
     return runs;

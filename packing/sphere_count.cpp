@@ -36,7 +36,11 @@ double passing_at(const Grading& grading, double diameter) {
 
 /// What would bring the count of a block down; a number that is rounded up to two digits.
 std::string finest_that_does(const PackingOptions& options, const Grading& grading) {
-    const double last = grading.sieve_diameter.back();
+    // The coarsest grains: sieves above that all pass have none between them.
+    const auto all = std::find(grading.passing.begin(), grading.passing.end(), 100);
+    const double last =
+        grading.sieve_diameter[std::min(grading.sieve_diameter.size() - 1,
+                                        static_cast<std::size_t>(all - grading.passing.begin()))];
     const auto few = [&](double finest) {
         return expected_spheres(without_finer(grading, finest), solid_volume(options)) <=
                options.max_spheres;
@@ -60,7 +64,7 @@ double spheres_a_block(const PackingOptions& options, const Grading& grading) {
 
 std::string sphere_count_text(const PackingOptions& options, const Grading& grading) {
     const double block = spheres_a_block(options, grading);
-    return fmt::format("{}{:.0f} spheres in a block, {:.4g} in the sample",
+    return fmt::format("{}{:.0f} spheres in a block, {:.0f} in the sample",
                        options.spheres ? "" : "about ", std::max(1.0, block),
                        std::max(1.0, block) * blocks_in_all(options));
 }

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The number goes up whenever the content is laid out otherwise.
-constexpr std::string_view file_title = "grainfield checkpoint 2\n";
+constexpr std::string_view file_title = "grainfield checkpoint 3\n";
 
 struct Preamble {
     std::array<char, file_title.size()> title;

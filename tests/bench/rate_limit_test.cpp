@@ -30,7 +30,7 @@ std::vector<RatePoint> made_points(double deviation, std::uint64_t seed) {
 
 TEST(RateLimit, IsThatOfTheLawsThatMadeThePoints) {
     const RateLimit limit = rate_limit(made_points(0, 1), 2, 1.0);
-    EXPECT_NEAR(limit.value, 100, 0.1);  // the grid's steps are 0.05
+    EXPECT_NEAR(limit.value, 100, 0.1);  // the grid's steps are 0.08
     EXPECT_NEAR(limit.laws[0].exponent, 0.5, 0.02);
     EXPECT_NEAR(limit.laws[0].slope, 60, 1);
     EXPECT_NEAR(limit.laws[1].slope, -20, 1);

@@ -7,6 +7,7 @@
 
 #include "core/files/sphere_file.hpp"
 #include "tests/cases/sample.hpp"
+#include "triaxial/report/curve_file.hpp"
 
 namespace grainfield::case_tests {
 namespace {
@@ -38,6 +39,29 @@ TEST(GravityInTheTest, BottomStandsAndTheTestRuns) {
     for (std::size_t i = 0; i < packing().spheres.size(); ++i)
         bottom = std::min(bottom, packing().spheres.position.y[i] - packing().spheres.radius[i]);
     EXPECT_NEAR(state.box->lower[1], bottom, 1e-7);  // digits of the file
+}
+
+// Half the weight once stood in the deviator stress from the first point on: at 10 kPa E50 was
+// 30 MPa instead of 14 (0.02/s to 1 % of strain).
+TEST(GravityInTheTest, WeightIsNoStrength) {
+    const Workplace place;
+    const std::string packing = place.write("P.data", lammps_text({}));
+    double first[2], peak[2], E50[2];
+    for (int k : {0, 1}) {
+        const Outcome outcome =
+            shear(place, packing,
+                  {"triaxial.confining_stress=10e3", "triaxial.strain_rate=0.02",
+                   k == 0 ? "triaxial.gravity=0" : "triaxial.gravity=9.81"},
+                  "0.01");
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        const nlohmann::json summary = place.json("run/summary.json");
+        peak[k] = summary.at("peak_deviator_stress_Pa");
+        E50[k] = summary.at("E50_Pa");
+        first[k] = triaxial::report::read_curve(place.path("run/curve.csv")).deviator_stress[1];
+    }
+    EXPECT_LT(std::abs(first[1]), 1.2e3);  // half the weight: 3.8 kPa
+    EXPECT_NEAR(peak[1], peak[0], 0.3 * peak[0]);
+    EXPECT_NEAR(E50[1], E50[0], 0.4 * E50[0]);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ class Repeats : public testing::Test {
                        int signal) const {
         std::vector<std::string> often = words;
         often.insert(often.end(), {"--checkpoint-every", "1e-9"});
-        const std::string before = folder + "/repeat" + std::to_string(repeat - 1);
+        const std::string before = folder + "/repeat" + std::to_string(repeat - 1) + ".part";
         fs::file_time_type saved;
         return place_.run(often,
                           SignalAfter{signal, [&, this] {
@@ -104,6 +104,7 @@ TEST_F(Repeats, FirstIsTheRunWithoutThemAndOthersDiffer) {
     EXPECT_FALSE(place_.has("series/repeat2"));
     ASSERT_EQ(place_.run(test("series", {})).code, 0);
     EXPECT_FALSE(place_.has("series/repeats.json") || place_.has("series/repeats.csv"));
+    EXPECT_FALSE(place_.has("series/repeat0") || place_.has("series/repeat1"));
     ASSERT_EQ(place_.run(test("series", {"--repeats", "2"})).code, 0);
     EXPECT_FALSE(place_.has("series/summary.json") || place_.has("series/curve.csv"));
 }
@@ -116,8 +117,8 @@ TEST_F(Repeats, AStoppedSeriesGoesOnToTheSameBytes) {
     const Outcome stopped = stopped_in("series", words, 1, SIGINT);
     ASSERT_EQ(stopped.code, 130) << stopped.err;
     EXPECT_THAT(stopped.err, HasSubstr("--resume goes on"));
-    EXPECT_FALSE(place_.has("series/repeat1/summary.json"));
-    const auto first = fs::last_write_time(place_.path("series/repeat0/state.h5"));
+    EXPECT_FALSE(place_.has("series/repeat1.part/summary.json"));
+    const auto first = fs::last_write_time(place_.path("series/repeat0.part/state.h5"));
 
     const Outcome other = place_.run(test("series", {"--repeats", "4", "--resume"}, ""));
     EXPECT_EQ(other.code, 2) << other.err;
@@ -135,6 +136,23 @@ TEST_F(Repeats, AStoppedSeriesGoesOnToTheSameBytes) {
     expect_same_series("series", "whole", 3);
     EXPECT_EQ(place_.read("series/packing.h5"), place_.read("whole/packing.h5"));
     EXPECT_FALSE(place_.has("series/checkpoint.bin"));
+}
+
+TEST_F(Repeats, AFinishedRunStaysUntilTheSeriesHasItsResults) {
+    ASSERT_EQ(place_.run(test("out", {})).code, 0);
+    const std::vector<std::string> results{"summary.json", "curve.csv",   "energy.csv",
+                                           "state.h5",     "report.html", "config.toml"};
+    std::vector<std::string> before;
+    for (const std::string& name : results) before.push_back(place_.read("out/" + name));
+    const auto series = test("out", {"--repeats", "2"});
+    ASSERT_EQ(stopped_in("out", series, 1, SIGINT).code, 130);
+    for (std::size_t k = 0; k < results.size(); ++k)
+        EXPECT_EQ(place_.read("out/" + results[k]), before[k]) << results[k];
+    // A file of the user's stays for good.
+    place_.write("out/notes.txt", "mine");
+    ASSERT_EQ(place_.run(series).code, 0);
+    EXPECT_FALSE(place_.has("out/summary.json") || place_.has("out/repeat0.part"));
+    EXPECT_TRUE(place_.has("out/notes.txt") && place_.has("out/repeat1/summary.json"));
 }
 
 TEST_F(Repeats, ACheckpointOfASingleRunIsNotOneOfASeries) {
@@ -158,8 +176,8 @@ TEST_F(Repeats, OneThatFailsIsNamed) {
         place_.run(test("series", {"--repeats", "2", "--set", "time.step=1e-3"}));
     ASSERT_EQ(failed.code, 3) << failed.err;
     EXPECT_THAT(failed.err, HasSubstr("repeat 0 of 0-1: "));
-    EXPECT_THAT(failed.err, HasSubstr("repeat0/state.h5"));
-    EXPECT_TRUE(place_.has("series/repeat0/state.h5"));
+    EXPECT_THAT(failed.err, HasSubstr("repeat0.part/state.h5"));
+    EXPECT_TRUE(place_.has("series/repeat0.part/state.h5"));
     EXPECT_FALSE(place_.has("series/repeats.csv"));
 }
 

@@ -68,6 +68,20 @@ std::string hash_of(const fs::path& file) {
     return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
 }
 
+/// What the bits of a case's results depend on: instruction sets that give the same ones have one
+/// name.
+std::string kernels_text(const kernels::KernelTable& kernels) {
+    const bool fused = kernels.isa != kernels::InstructionSet::scalar;
+    return fmt::format("{}, {}", fused ? "avx2 or avx512" : kernels::name(kernels.isa),
+                       kernels.precision);
+}
+
+/// A case's config for comparing: which of those instruction sets is asked for is no matter.
+std::string comparable_text(CampaignCase one, const kernels::KernelTable& kernels) {
+    if (kernels.isa != kernels::InstructionSet::scalar) one.config.solver.isa = {};
+    return case_text(one);
+}
+
 /// What identifies a campaign, case by case.
 nlohmann::json identity_of(const std::vector<CampaignCase>& cases,
                            const std::optional<fs::path>& packing) {
@@ -75,9 +89,8 @@ nlohmann::json identity_of(const std::vector<CampaignCase>& cases,
     if (packing) json["packing"] = hash_of(*packing);
     for (const CampaignCase& one : cases) {
         const kernels::KernelTable& kernels = core::choose_kernels(one.config.solver);
-        json["cases"][one.name] = {
-            {"kernels", fmt::format("{}, {}", kernels::name(kernels.isa), kernels.precision)},
-            {"config", case_text(one)}};
+        json["cases"][one.name] = {{"kernels", kernels_text(kernels)},
+                                   {"config", comparable_text(one, kernels)}};
         const randomfield::FieldOptions& field = one.config.field;
         if (!field.data.empty() && field.variable != randomfield::Variable::none)
             json["cases"][one.name]["data"] = hash_of(field.data);

@@ -34,22 +34,27 @@ struct Series {
     }
 };
 
-/// What an earlier run or series left in the folder is not of this series.
-void clear_earlier_series(const fs::path& out) {
-    clear_earlier_run(out);
-    const auto drop = [](const fs::path& folder) {
+/// Where the results of a repeat stand until the series has all of its own.
+fs::path repeat_in_progress(const fs::path& out, std::size_t k) {
+    return report::repeat_folder(out, k) += ".part";
+}
+
+/// All repeats are there: they take the place of what an earlier run or series left in the folder.
+/// What a run that was killed in here has moved already stays where it is.
+void take_place(const fs::path& out, std::size_t count) {
+    if (fs::exists(out / "summary.json")) {
+        // Of a finished single run; else they are the user's.
         std::error_code ignored;
-        for (const char* name : {"config.toml", "curve.csv", "energy.csv"})
-            fs::remove(folder / name, ignored);
-    };
-    drop(out);
-    for (std::size_t k = 0; fs::exists(report::repeat_folder(out, k)); ++k) {
-        const fs::path folder = report::repeat_folder(out, k);
-        clear_earlier_run(folder);
-        drop(folder);
-        std::error_code ignored;
-        fs::remove(folder / "packing.json", ignored);
-        fs::remove(folder, ignored);  // unless somebody keeps files there
+        for (const char* name : {"curve.csv", "energy.csv"}) fs::remove(out / name, ignored);
+    }
+    if (fs::exists(repeat_in_progress(out, 0))) clear_earlier_run(out);
+    for (std::size_t k = 0; k < count; ++k) {
+        const fs::path part = repeat_in_progress(out, k), folder = report::repeat_folder(out, k);
+        if (!fs::exists(part)) continue;
+        core::create_folder(folder);  // that of an earlier series may hold files of the user
+        for (const auto& entry : fs::directory_iterator(part))
+            fs::rename(entry.path(), folder / entry.path().filename());
+        fs::remove(part);
     }
 }
 
@@ -62,7 +67,7 @@ void run_repeat(Series& series, bool resumed, const Run& run, const fs::path& ou
                 const kernels::KernelTable& kernels, core::Checkpoint& checkpoint,
                 Session& session) {
     const auto number = static_cast<std::size_t>(series.repeat);
-    const fs::path folder = report::repeat_folder(out, number);
+    const fs::path folder = repeat_in_progress(out, number);
     ResumableRun resumable(session.monitor, failed_state_file(folder), checkpoint,
                            name_of(series, run) + ", ");
     core::Simulation simulation =
@@ -73,8 +78,6 @@ void run_repeat(Series& series, bool resumed, const Run& run, const fs::path& ou
     core::create_folder(folder);  // for the state of one that fails
     const TestResult result =
         resumable.run([&] { return run_test(simulation, run.config, resumable, &checkpoint); });
-    if (number == 0) clear_earlier_series(out);
-    core::create_folder(folder);
     core::remove_abandoned_files(folder);
     clear_earlier_run(folder);
     // The sample was made once.
@@ -99,7 +102,7 @@ void print_scatter(const report::RepeatsData& data) {
         return fmt::format("{:.{}g} to {:.{}g}", scale * interval.lower, digits,
                            scale * interval.upper, digits);
     };
-    constexpr const char* line = "{:<31}{:>9}{:>19}{:>11}{:>9}{:>18}\n";
+    constexpr const char* line = "{:<31} {:>9} {:>22} {:>10} {:>8} {:>20}\n";
     write_result(fmt::format(line, "", "mean", "95 %", "deviation", "COV, %", "95 %"));
     for (const report::RepeatedQuantity& q : report::repeated_quantities) {
         const report::Scatter s = scatter_of(data, q);
@@ -111,6 +114,12 @@ void print_scatter(const report::RepeatsData& data) {
 }
 
 }  // namespace
+
+void drop_repeats_in_progress(const fs::path& out) {
+    std::error_code ignored;
+    for (std::size_t k = 0; fs::exists(repeat_in_progress(out, k)); ++k)
+        fs::remove_all(repeat_in_progress(out, k), ignored);
+}
 
 void run_repeats(Run& run, const fs::path& out, const kernels::KernelTable& kernels,
                  core::Checkpoint& checkpoint, Session& session) {
@@ -133,6 +142,7 @@ void run_repeats(Run& run, const fs::path& out, const kernels::KernelTable& kern
     session.monitor.begin("report");
     keep_own_packing(run, out);
     const auto count = static_cast<std::size_t>(run.repeats);
+    take_place(out, count);
     hand_out_packing_json(out, count);
     const report::RepeatsData data = report::read_repeats(out, count);
     core::write_file_atomically(out / "repeats.csv", repeats_csv(data));

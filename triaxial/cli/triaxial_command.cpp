@@ -88,6 +88,7 @@ void run_triaxial(const TriaxialArguments& arguments, Session& session) {
     } else {
         CheckpointArguments::begin_anew(checkpoint_file, session.monitor);
         drop_packing_in_progress(out);
+        drop_repeats_in_progress(out);
     }
     handle_signals(OnSignal::stop_safely);
     if (run.repeats > 0) return run_repeats(run, out, kernels, checkpoint, session);

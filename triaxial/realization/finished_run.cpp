@@ -34,9 +34,19 @@ void drop_packing_in_progress(const fs::path& folder) {
 
 void clear_earlier_run(const fs::path& folder) {
     std::error_code ignored;  // what cannot be removed is written over, or in nobody's way
-    for (const char* name : {"summary.json", "repeats.json", "repeats.csv", "report.html",
-                             "state.h5", "state.failed.h5"})
-        fs::remove(folder / name, ignored);
+    const auto drop = [&](const fs::path& from, std::initializer_list<const char*> names) {
+        for (const char* name : names) fs::remove(from / name, ignored);
+    };
+    const auto results = {"summary.json", "report.html", "state.h5", "state.failed.h5"};
+    if (fs::exists(folder / "repeats.json"))
+        for (int k = 0; fs::exists(folder / fmt::format("repeat{}", k)); ++k) {
+            const fs::path repeat = folder / fmt::format("repeat{}", k);
+            drop(repeat, results);
+            drop(repeat, {"config.toml", "curve.csv", "energy.csv", "packing.json"});
+            fs::remove(repeat, ignored);  // unless somebody keeps files there
+        }
+    drop(folder, results);
+    drop(folder, {"repeats.json", "repeats.csv"});
 }
 
 void keep_packing(const fs::path& folder) {

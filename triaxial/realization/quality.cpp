@@ -7,12 +7,6 @@
 namespace grainfield::triaxial {
 namespace {
 
-// Limits of a quasi-static test, from the study of strain rate and damping
-// (docs/method.md, section 8): within them the peak is within 5 % of that of an endlessly slow
-// test.
-constexpr double quasi_static_inertial_number = 2e-4;  // [-]
-constexpr double quasi_static_damping_share = 0.3;     // [-]
-
 /// RMS error of both lateral stresses up to a strain; of the first point at least.
 double rms_error(std::span<const CurvePoint> curve, double strain) {
     double sum = 0;

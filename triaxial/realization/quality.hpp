@@ -18,6 +18,10 @@ inline constexpr double stress_not_held = 0.05;
 /// From here on a warning says so [-].
 inline constexpr double stress_held_badly = 0.01;
 
+/// Limits of a quasi-static test (docs/method.md, section 8; bench/results/rate.md) [-].
+inline constexpr double quasi_static_inertial_number = 2e-4;
+inline constexpr double quasi_static_damping_share = 0.15;
+
 /// How well the lateral stresses were held over the parts of the curve that the results come from.
 struct HeldStress {
     double to_E50 = 0;   ///< RMS relative error of both, from the start to where E50 is read [-]

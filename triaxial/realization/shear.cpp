@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/base/errors.hpp"
 #include "core/drive/box.hpp"
@@ -112,16 +113,22 @@ void ShearStage::watch_servos(double error, double step) {
         100 * axial_strain()));
 }
 
+/// What the sample's weight adds to the mean of top and bottom: it is no strength [Pa].
+double ShearStage::own_weight_stress() const {
+    const Vec3 size = core::box_dimensions(driver_.simulation());
+    return 0.5 * weight_ / core::wall_area(size, 1);
+}
+
 /// Adds a point to the curve; true if the test may end.
 bool ShearStage::record() {
     core::Simulation& simulation = driver_.simulation();
     const Vec3 mean = stress_sum_ / static_cast<double>(stress_count_);
     CurvePoint point;
     point.axial_strain = axial_strain();
-    point.axial_stress = mean.y();
+    point.axial_stress = mean.y() - own_weight_stress();
     point.lateral_stress_x = mean.x();
     point.lateral_stress_z = mean.z();
-    point.deviator_stress = mean.y() - 0.5 * (mean.x() + mean.z());
+    point.deviator_stress = point.axial_stress - 0.5 * (mean.x() + mean.z());
     point.volumetric_strain = 1 - core::box_dimensions(simulation).prod() / start_size_.prod();
     point.unbalanced_force_ratio = simulation.unbalanced_force_ratio();
     point.time = time_;
@@ -168,8 +175,15 @@ void ShearStage::run() {
     const auto section = core::section_of(driver_.checkpoint(), "shear",
                                           [this](auto& archive) { archive_state(archive); });
     if (!section.resumed()) start_affine();
-    driver_.limit_kinetic_energy(core::most_kinetic_energy(
-        driver_.simulation(), options_.strain_rate, options_.confining_stress));
+    const core::Simulation& simulation = driver_.simulation();
+    const auto& mass = simulation.spheres().mass;
+    weight_ =
+        std::accumulate(mass.begin(), mass.end(), 0.0) * std::abs(simulation.scene().gravity.y());
+    // A sample that collapses moves as fast as the side walls may follow: at that speed its kinetic
+    // energy is half the confining stress times the volume of its solids.
+    driver_.limit_kinetic_energy(
+        core::most_kinetic_energy(simulation, options_.strain_rate, options_.confining_stress) +
+        0.5 * options_.confining_stress * start_size_.prod());
     for (bool ended = false; !ended;) {
         driver_.safe_point();
         const bool due = axial_strain() >= next_strain_;

@@ -40,10 +40,12 @@ class ShearStage {
     bool record();
     bool may_end();
     double axial_strain() const;
+    double own_weight_stress() const;
 
     core::Driver& driver_;
     TriaxialOptions options_;
     Vec3 start_size_;
+    double weight_ = 0;  // of the spheres; 0 without gravity [N]
     std::vector<core::WallServo> servos_;
     std::vector<CurvePoint> curve_;
     FailureRule rule_;
