@@ -120,8 +120,9 @@ std::string quasi_static_table(const std::vector<Study>& studies) {
                 near += std::abs(off) <= 0.05 ? 1u : 0u;
             }
         }
-        text += fmt::format("| {} | {} | {:+.1f} % | {} | {} |\n", s.sample->name, inside,
-                            100 * worst, outside, near);
+        text +=
+            fmt::format("| {} | {} | {} | {} | {} |\n", s.sample->name, inside,
+                        inside == 0 ? "–" : fmt::format("{:+.1f} %", 100 * worst), outside, near);
     }
     return text;
 }
