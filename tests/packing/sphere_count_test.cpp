@@ -28,8 +28,7 @@ TEST(SphereCount, IsThatOfTheNumberDensity) {
     PackingOptions options;
     EXPECT_NEAR(spheres_a_block(options, {{1e-4, 0.1}, {0, 100}}), straight(options, 1e-4, 0.1),
                 1e-9 * straight(options, 1e-4, 0.1));
-    EXPECT_EQ(sphere_count_text(options, {}),
-              "about 312 spheres in a block, 134571 in the sample");
+    EXPECT_EQ(sphere_count_text(options, {}), "about 312 spheres in a block, 134571 in the sample");
     options.spheres = 351;
     EXPECT_EQ(sphere_count_text(options, {}), "351 spheres in a block, 151632 in the sample");
 }
