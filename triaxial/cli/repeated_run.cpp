@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "core/base/errors.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/folder.hpp"
 #include "core/files/text_file.hpp"
@@ -52,9 +53,14 @@ void take_place(const fs::path& out, std::size_t count) {
         const fs::path part = repeat_in_progress(out, k), folder = report::repeat_folder(out, k);
         if (!fs::exists(part)) continue;
         core::create_folder(folder);  // that of an earlier series may hold files of the user
-        for (const auto& entry : fs::directory_iterator(part))
-            fs::rename(entry.path(), folder / entry.path().filename());
-        fs::remove(part);
+        try {
+            for (const auto& entry : fs::directory_iterator(part))
+                fs::rename(entry.path(), folder / entry.path().filename());
+            fs::remove(part);
+        } catch (const fs::filesystem_error& error) {
+            throw FileError(fmt::format("{}: its files cannot be moved to {}: {}", part.string(),
+                                        folder.string(), error.code().message()));
+        }
     }
 }
 
