@@ -189,17 +189,35 @@ TEST_P(Servo, FollowsThroughAGapAsAMembraneGainsSpeed) {
     }
 }
 
+TEST_P(Servo, MovesInAtItsCapThroughAGapIfItsStiffnessIsThatOfTheStep) {
+    const double force = 0.5 * test_radius * test_stiffness * 1e-3 * test_radius;
+    const double area = 0.02, step = 1e-4, cap = 1e3;
+    Simulation sim(pressed_sphere(), table());
+    sim.compute_forces();
+    WallServo servo(1, {.stress = force / area, .max_speed = cap, .present = 1});
+    servo.steer(sim, area, step);
+    sim.set_wall_velocity(1, Vec3(0, 1e-2 * test_radius / step, 0));
+    sim.advance(step);
+    sim.compute_forces();
+    EXPECT_EQ(servo.steer(sim, area, step), -1.0);
+    EXPECT_EQ(sim.walls()[1].velocity, Vec3(0, -cap, 0));
+}
+
+/// Two spheres under the lid of pressed_sphere(), of which it touches the second or not.
+Scene two_spheres(bool touches_both) {
+    Scene scene = pressed_sphere();
+    scene.spheres = scene_of({Ball{}, Ball{.x = Vec3(3 * test_radius, 0, 0)}}).spheres;
+    if (!touches_both) scene.spheres.position.set(1, Vec3(3 * test_radius, -2e-3 * test_radius, 0));
+    return scene;
+}
+
 TEST_P(Servo, IsNotSoftWhereFewContactsAreLeft) {
     // Two spheres under the wall, then one: K stays that of two for long.
     const double k = 0.5 * test_radius * test_stiffness, force = 2 * k * 1e-3 * test_radius;
     const double area = 0.02, step = 1e-4;
-    Scene scene = scene_of({Ball{}, Ball{.x = Vec3(3 * test_radius, 0, 0)}});
-    scene.walls = {plane(Vec3(0, -0.999 * test_radius, 0), Vec3::UnitY()),
-                   plane(Vec3(0, 0.999 * test_radius, 0), -Vec3::UnitY())};
-    Simulation both(scene, table());
+    Simulation both(two_spheres(true), table());
     both.compute_forces();
-    scene.spheres.position.set(1, Vec3(3 * test_radius, -2e-3 * test_radius, 0));
-    Simulation one(scene, table());
+    Simulation one(two_spheres(false), table());
     one.compute_forces();
     const WallServo::Options options{.stress = force / area, .max_speed = 1e3};
     WallServo servo(1, options);
@@ -210,6 +228,24 @@ TEST_P(Servo, IsNotSoftWhereFewContactsAreLeft) {
     EXPECT_NEAR(one.walls()[1].velocity.y() - steady,
                 -(options.gain + options.integral) * 0.5 * force / stiffness / step,
                 roundoff(1e5) * force / stiffness / step);
+}
+
+TEST_P(Servo, IsAsStiffAsItsContactsAreNow) {
+    // One sphere under the wall, then two: K is that of two at once.
+    const double k = 0.5 * test_radius * test_stiffness, force = k * 1e-3 * test_radius;
+    const double area = 0.02, step = 1e-4;
+    Simulation one(two_spheres(false), table());
+    one.compute_forces();
+    Simulation both(two_spheres(true), table());
+    both.compute_forces();
+    const WallServo::Options options{.stress = force / area, .max_speed = 1e3};
+    WallServo servo(1, options);
+    EXPECT_NEAR(servo.steer(one, area, step), 0.0, roundoff(1e4));
+    const double steady = servo.steady_speed();
+    EXPECT_NEAR(servo.steer(both, area, step), 1.0, roundoff(1e4));
+    EXPECT_NEAR(both.walls()[1].velocity.y() - steady,
+                (options.gain + options.integral) * force / (2 * k) / step,
+                roundoff(1e5) * force / k / step);
 }
 
 TEST_P(Servo, BringsOneSphereToItsForceWhateverTheDamping) {

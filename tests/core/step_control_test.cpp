@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "tests/core/test_scenes.hpp"
@@ -49,6 +51,21 @@ TEST_P(StepChoice, LooksAgainAfterTwentyStepsOrWhenTold) {
     EXPECT_FALSE(control.due(sim));
     control.reset();
     EXPECT_TRUE(control.due(sim));
+}
+
+// docs/method.md, section 3: 1.2 - alpha/2 of the safety, between 0.8 and all of it.
+TEST_P(StepChoice, LeavesRoomForDampingOfForcesAndOfMoments) {
+    for (const auto& [alpha, share] : {std::pair{0.0, 1.0}, {0.2, 1.0}, {0.6, 0.9}, {0.9, 0.8}})
+        for (const bool of_moments : {false, true}) {
+            Scene scene = cluster(0.8, 1.0);
+            scene.damping = of_moments ? Damping{.force = 0, .moment = alpha}
+                                       : Damping{.force = alpha, .moment = 0};
+            Simulation sim(std::move(scene), table());
+            sim.compute_forces();
+            StepControl control({.step = std::nullopt, .safety = 0.7});
+            const double step = control.next(sim);
+            EXPECT_NEAR(step, 0.7 * share * control.limit(), 1e-12 * step) << alpha;
+        }
 }
 
 // One sphere on a wall: omega^2 = K_n/m (k_s below k_n/3.5), the limit 2/omega.

@@ -50,6 +50,26 @@ TEST(Patience, LidThatComesDownIsShakenOn) {
         ASSERT_LE(patience.lowest(), sinking(bout));
     }
     EXPECT_EQ(patience.bouts(), 3899);
+    // In every bout by a little more than what counts as progress.
+    const auto steady = [](int bout) { return 30 - 2.1e-3 * bout; };
+    EXPECT_EQ(bouts_until(Verdict::lower_friction, true, steady), 10000);
+}
+
+TEST(Patience, LidThatHardlyComesDownIsFruitless) {
+    // Every other bout it is lower than ever, by a ten-thousandth of what counts as progress.
+    const auto creeping = [](int bout) { return 1.2 - 1e-7 * bout + (bout % 2 ? 0.05 : 0); };
+    EXPECT_EQ(bouts_until(Verdict::lower_friction, true, creeping), 20);
+    EXPECT_EQ(bouts_until(Verdict::give_up, false, creeping), 160);
+}
+
+TEST(Patience, EveryFrictionHasItsChance) {
+    Patience stalled(1.0, 1.2), bouncing(1.0, 1.2);
+    for (int bout = 1; bout <= 60; ++bout) {
+        EXPECT_EQ(stalled.after_bout(1.2, true) == Verdict::lower_friction, bout % 3 == 0) << bout;
+        EXPECT_EQ(bouncing.after_bout(bout % 2 ? 1.25 : 1.2, true) == Verdict::lower_friction,
+                  bout % 20 == 0)
+            << bout;
+    }
 }
 
 TEST(Patience, ReachingTheHeightOfTheBlockCountsAnew) {
@@ -59,8 +79,9 @@ TEST(Patience, ReachingTheHeightOfTheBlockCountsAnew) {
         ASSERT_EQ(patience.after_bout(bouncing(bout), false), Verdict::go_on) << bout;
     patience.reached(1.0);
     EXPECT_EQ(patience.lowest(), 1.0);
+    // Lower than before, but not below the height that was reached.
     int more = 1;
-    while (patience.after_bout(bouncing(more), false) == Verdict::go_on) ++more;
+    while (patience.after_bout(bouncing(more) - 0.1, false) == Verdict::go_on) ++more;
     EXPECT_EQ(more, 160);
 }
 

@@ -37,6 +37,8 @@ TEST(Curve, SmoothCurveInClosedForm) {
     const double E50 = 90e3 / (0.01 * (2 - std::sqrt(3.0)));
     // Linear between points 5e-5 apart: curvature leaves h^2 q''/8q', 1e-5 here.
     EXPECT_NEAR(r.E50, E50, 1e-4 * E50);
+    // Means over the window h, a fifth of the strain: h^2 q''/24q' of the strain is 7e-4.
+    EXPECT_NEAR(r.smoothed_E50, E50, 1.5e-3 * E50);
     EXPECT_NEAR(std::sin(r.friction_angle), 180.0 / 380.0, 1e-6);
 }
 

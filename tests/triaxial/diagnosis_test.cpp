@@ -4,7 +4,11 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <functional>
+#include <limits>
+#include <utility>
 
 #include "core/base/errors.hpp"
 #include "core/drive/box.hpp"
@@ -114,7 +118,8 @@ TEST_P(Diagnosis, OfAKineticEnergyThatExplodes) {
 TEST_P(Diagnosis, OfAServoThatCannotHold) {
     // Shear at another stress than the sample was brought to, with side walls that a density far
     // above that of any soil allows to move at no more than 1e-4 of the axial rate.
-    for (const double share : {10.0, 0.1}) {
+    // 20 inertial times come to less strain than 0.1 % in one case, to more in the other.
+    for (const auto& [share, inertial_strain] : {std::pair{10.0, 1e-5}, {0.1, 1e-4}}) {
         core::Simulation simulation(make_scene(sample_, config_), table());
         Saboteur saboteur;
         saboteur.simulation = &simulation;
@@ -125,10 +130,10 @@ TEST_P(Diagnosis, OfAServoThatCannotHold) {
         options.confining_stress *= share;
         const double speed =
             1e-4 * options.strain_rate * core::box_dimensions(simulation).minCoeff();
-        const double inertial_time = 1e-5 / options.strain_rate;
+        const double inertial_time = inertial_strain / options.strain_rate;
         const std::int64_t begin = simulation.steps();
         ShearStage shear(driver, options, options.confining_stress / (speed * speed),
-                         {.spheres = simulation.size(), .transient_strain = 1e-5});
+                         {.spheres = simulation.size(), .transient_strain = inertial_strain});
         std::string message;
         try {
             shear.run();
@@ -148,6 +153,42 @@ TEST_P(Diagnosis, OfAServoThatCannotHold) {
             begin +
             static_cast<std::int64_t>(end / shear.time() * static_cast<double>(shear.steps()));
         record(std::max<std::int64_t>(0, simulation.steps() - known), message);
+    }
+}
+
+TEST_P(Diagnosis, LeavesASampleThatCollapsesAlone) {
+    // Shaken so that its kinetic energy stays at a share of the confining stress times the volume
+    // of the box: 0.5 is what a collapse may come to.
+    for (const double share : {0.3, 0.7}) {
+        core::Simulation simulation(make_scene(sample_, config_), table());
+        Saboteur saboteur;
+        saboteur.simulation = &simulation;
+        saboteur.at = std::numeric_limits<std::int64_t>::max();
+        core::Driver driver(simulation, config_.time, saboteur);
+        packing::compress_isotropically(driver, config_.triaxial.confining_stress);
+        const double energy =
+            share * config_.triaxial.confining_stress * core::box_dimensions(simulation).prod();
+        saboteur.at = simulation.steps();
+        saboteur.spoilt_steps = std::numeric_limits<std::int32_t>::max();
+        saboteur.spoil = [&](core::Simulation& s) {
+            double present = 0;
+            for (std::size_t i = 0; i < s.size(); ++i)
+                present += 0.5 * s.spheres().mass[i] * s.spheres().velocity[i].squaredNorm();
+            s.change().scale_velocities(std::sqrt(energy / present));
+        };
+        TriaxialOptions options = config_.triaxial;
+        options.strain_rate = 0.02;  // some 500 steps: it is looked at every 200
+        options.max_axial_strain = 4e-4;
+        ShearStage shear(driver, options, config_.particle.density,
+                         {.spheres = simulation.size(), .transient_strain = 1e-5});
+        std::string message;
+        try {
+            shear.run();
+        } catch (const SimulationError& error) {
+            message = error.what();
+        }
+        EXPECT_EQ(message.find("unstable: the kinetic energy is ") == 0, share > 0.5) << message;
+        EXPECT_EQ(message.empty(), share < 0.5) << message;
     }
 }
 

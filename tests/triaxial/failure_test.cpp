@@ -91,6 +91,21 @@ TEST(Failure, ASmallSampleMustDilateMore) {
     EXPECT_LT(end_of(curve_of(softening_stress, 0.75), small_sample).strain, 0.025);
 }
 
+TEST(Failure, DilationAtThePeakIsAMeanOverBothSidesOfIt) {
+    // Volume that grows on one side only counts by half: 0.25 is needed.
+    for (const bool before : {true, false})
+        for (const auto& [dilation, failure] :
+             {std::pair{0.4, Failure::strain_limit}, {0.6, Failure::peak}}) {
+            Curve curve = curve_of(softening_stress, 0);
+            for (CurvePoint& p : curve) {
+                const double beyond = p.axial_strain - 0.01;
+                p.volumetric_strain =
+                    -dilation * (before ? std::min(beyond, 0.0) : std::max(beyond, 0.0));
+            }
+            EXPECT_EQ(end_of(curve, full_sample).failure, failure) << before << ' ' << dilation;
+        }
+}
+
 TEST(Failure, ADipThatRecoversEndsNothing) {
     // A deep one that is short, and a long one of less than 10 %; then on to the peak at 5 %.
     const Function deep = polygon({{0, 0},
@@ -214,6 +229,9 @@ TEST(Failure, AFinishedCurveIsCalledWhatItIs) {
     // A rise of less than 5 % since the curve bent is a plateau, 10 % more are hardening.
     EXPECT_EQ(called(polygon({{0, 0}, {0.02, 100e3}, {0.1, 104e3}}), 0.1), Failure::plateau);
     EXPECT_EQ(called(polygon({{0, 0}, {0.02, 100e3}, {0.1, 125e3}}), 0.1), Failure::strain_limit);
+    // Back after a dip, it has not stayed near its highest value.
+    const Function back = polygon({{0, 0}, {0.02, 100e3}, {0.03, 92e3}, {0.04, 98e3}, {0.1, 98e3}});
+    EXPECT_EQ(called(back, 0.1), Failure::strain_limit);
     // The highest point comes last.
     EXPECT_EQ(called(polygon({{0, 0}, {0.02, 100e3}, {0.03, 60e3}, {0.1, 130e3}}), 0.1),
               Failure::strain_limit);
@@ -245,6 +263,13 @@ TEST(SmoothedCurve, IsTheMeanOverTheWindow) {
     const SmoothedCurve same = smoothed_curve(coarse, 0.002);
     for (std::size_t k = 0; k < coarse.size(); ++k)
         EXPECT_NEAR(same.deviator_stress[k], coarse[k].deviator_stress, 1e-6);
+}
+
+TEST(SmoothedCurve, HasItsPeakWhereTheWindowIsFull) {
+    // A jump at the first point that counts would be its own mean.
+    Curve curve = curve_of(softening_stress, 0, 0.03);
+    curve[20].deviator_stress = 1e6;
+    EXPECT_NEAR(smoothed_peak(curve, full_sample), 200e3, 1e3);
 }
 
 /// A recorded curve, every fourth point: axial strain, deviator stress, volumetric strain.

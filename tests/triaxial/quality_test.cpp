@@ -94,5 +94,12 @@ TEST(QuasiStatic, IsJudgedByInertiaAndByDampingWhereThatIsKnown) {
     EXPECT_THAT(not_quasi_static(1e-2, much), HasSubstr(" and numerical damping"));
 }
 
+TEST(QuasiStatic, LimitsAreThoseOfTheMethod) {
+    // docs/method.md, section 8: an inertial number of 2e-4, a share of 15 %.
+    EXPECT_THAT(not_quasi_static(1.99e-4, ShearEnergy{.damping_share = 0.149}), IsEmpty());
+    EXPECT_THAT(not_quasi_static(2.01e-4, {}), Not(IsEmpty()));
+    EXPECT_THAT(not_quasi_static(0, ShearEnergy{.damping_share = 0.151}), Not(IsEmpty()));
+}
+
 }  // namespace
 }  // namespace grainfield::triaxial

@@ -9,6 +9,7 @@
 #include "core/drive/box.hpp"
 #include "packing/isotropic.hpp"
 #include "tests/triaxial/small_test.hpp"
+#include "triaxial/realization/shear.hpp"
 
 namespace grainfield::triaxial {
 namespace {
@@ -89,6 +90,29 @@ TEST(Shear, HoldsTheConfiningStressAndStiffensWithIt) {
     EXPECT_GT(modulus[1], modulus[0]);
     // Without cohesion the strength is proportional to the stress; the rate's share falls.
     EXPECT_NEAR(ratio[1] / ratio[0], 1, 0.15);
+}
+
+TEST(Shear, OwnWeightIsNoStrength) {
+    // Ten times the earth's, so that the weight is not lost in the stress: the mean of top and
+    // bottom is half of it above the confining stress, and nothing is sheared yet.
+    const Sample sample = dense_sample(200);
+    Config config = small_config(sample);
+    config.triaxial.gravity = 98.1;
+    config.triaxial.max_axial_strain = 0;
+    core::Simulation simulation(make_scene(sample, config), kernels::reference_kernels());
+    core::Monitor monitor;
+    core::Driver driver(simulation, config.time, monitor);
+    packing::compress_isotropically(driver, config.triaxial.confining_stress);
+    double mass = 0;
+    for (const double m : simulation.spheres().mass) mass += m;
+    const double weight = 98.1 * mass / core::wall_area(core::box_dimensions(simulation), 1);
+    ASSERT_GT(weight, 0.3 * config.triaxial.confining_stress);
+    ShearStage shear(driver, config.triaxial, config.particle.density, {});
+    shear.run();
+    ASSERT_EQ(shear.curve().size(), 1U);
+    // The stresses are good to 0.3 % (Isotropic tests).
+    EXPECT_NEAR(shear.curve()[0].axial_stress, config.triaxial.confining_stress,
+                0.003 * (config.triaxial.confining_stress + weight));
 }
 
 TEST(Shear, EndsByItselfOnceTheSampleHasFailed) {
