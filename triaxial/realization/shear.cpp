@@ -180,7 +180,7 @@ void ShearStage::run() {
     weight_ =
         std::accumulate(mass.begin(), mass.end(), 0.0) * std::abs(simulation.scene().gravity.y());
     // A sample that collapses moves as fast as the side walls may follow: at that speed its kinetic
-    // energy is half the confining stress times the volume of its solids.
+    // energy is half the confining stress times the volume of its solids, which is less than this.
     driver_.limit_kinetic_energy(
         core::most_kinetic_energy(simulation, options_.strain_rate, options_.confining_stress) +
         0.5 * options_.confining_stress * start_size_.prod());
