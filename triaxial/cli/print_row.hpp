@@ -11,7 +11,7 @@ namespace grainfield::triaxial {
 
 inline void print_row(std::string_view name, std::string_view value) {
     constexpr std::size_t column = 24;
-    const std::string_view gap = name.size() < column - 1 ? "" : "  ";  // longer names
+    const std::string_view gap = name.size() < column ? "" : "  ";  // longer names
     write_result(fmt::format("{:<{}}{}{}\n", name, column, gap, value));
 }
 
