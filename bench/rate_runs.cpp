@@ -7,6 +7,7 @@
 
 #include "core/files/text_file.hpp"
 #include "triaxial/report/json_file.hpp"
+#include "triaxial/statistics/moments.hpp"
 
 namespace grainfield::bench {
 namespace {
@@ -46,18 +47,18 @@ std::vector<RateRun> read_runs(const fs::path& folder) {
 
 }  // namespace
 
+std::vector<double> RateCell::values(double RateRun::*value) const {
+    std::vector<double> all;
+    for (const RateRun& run : runs) all.push_back(run.*value);
+    return all;
+}
+
 double RateCell::mean(double RateRun::*value) const {
-    double sum = 0;
-    for (const RateRun& run : runs) sum += run.*value;
-    return sum / static_cast<double>(runs.size());
+    return *triaxial::statistics::mean(values(value));
 }
 
 std::optional<double> RateCell::deviation(double RateRun::*value) const {
-    if (runs.size() < 2) return std::nullopt;
-    const double middle = mean(value);
-    double squares = 0;
-    for (const RateRun& run : runs) squares += (run.*value - middle) * (run.*value - middle);
-    return std::sqrt(squares / static_cast<double>(runs.size() - 1));
+    return triaxial::statistics::standard_deviation(values(value));
 }
 
 std::size_t RateCell::without_peak() const {

@@ -29,6 +29,7 @@ struct RateCell {
     double rate = 0;     ///< axial strain rate [1/s]
     std::vector<RateRun> runs;
 
+    std::vector<double> values(double RateRun::*value) const;
     double mean(double RateRun::*value) const;
     /// Over n - 1; none of a single run.
     std::optional<double> deviation(double RateRun::*value) const;

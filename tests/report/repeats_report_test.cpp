@@ -12,6 +12,7 @@
 
 #include "core/base/errors.hpp"
 #include "tests/report/run_fixture.hpp"
+#include "triaxial/realization/finished_run.hpp"
 #include "triaxial/report/repeats/repeats_data.hpp"
 
 namespace grainfield::triaxial {
@@ -27,7 +28,7 @@ class RepeatsReport : public testing::Test {
     /// A series with these largest deviator stresses [kPa]; E50 is the same in all.
     std::filesystem::path series(const std::vector<double>& peaks, const char* failure = "peak") {
         for (std::size_t k = 0; k < peaks.size(); ++k) {
-            const auto dir = report::repeat_folder(folder_.path(), k);
+            const auto dir = repeat_folder(folder_.path(), k);
             auto summary = fixture::write_run(dir, {.blocks = {1, 1, 1}, .spheres_per_block = 5});
             summary["peak_deviator_stress_Pa"] = 1e3 * peaks[k];
             summary["E50_Pa"] = 3e7;

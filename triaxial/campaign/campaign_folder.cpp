@@ -68,17 +68,21 @@ std::string hash_of(const fs::path& file) {
     return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
 }
 
+/// AVX2 and AVX-512 give the same bits.
+bool fused(const kernels::KernelTable& kernels) {
+    return kernels.isa != kernels::InstructionSet::scalar;
+}
+
 /// What the bits of a case's results depend on: instruction sets that give the same ones have one
 /// name.
 std::string kernels_text(const kernels::KernelTable& kernels) {
-    const bool fused = kernels.isa != kernels::InstructionSet::scalar;
-    return fmt::format("{}, {}", fused ? "avx2 or avx512" : kernels::name(kernels.isa),
+    return fmt::format("{}, {}", fused(kernels) ? "avx2 or avx512" : kernels::name(kernels.isa),
                        kernels.precision);
 }
 
 /// A case's config for comparing: which of those instruction sets is asked for is no matter.
 std::string comparable_text(CampaignCase one, const kernels::KernelTable& kernels) {
-    if (kernels.isa != kernels::InstructionSet::scalar) one.config.solver.isa = {};
+    if (fused(kernels)) one.config.solver.isa = {};
     return case_text(one);
 }
 

@@ -37,7 +37,7 @@ struct Series {
 
 /// Where the results of a repeat stand until the series has all of its own.
 fs::path repeat_in_progress(const fs::path& out, std::size_t k) {
-    return report::repeat_folder(out, k) += ".part";
+    return repeat_folder(out, k) += ".part";
 }
 
 /// All repeats are there: they take the place of what an earlier run or series left in the folder.
@@ -50,7 +50,7 @@ void take_place(const fs::path& out, std::size_t count) {
     }
     if (fs::exists(repeat_in_progress(out, 0))) clear_earlier_run(out);
     for (std::size_t k = 0; k < count; ++k) {
-        const fs::path part = repeat_in_progress(out, k), folder = report::repeat_folder(out, k);
+        const fs::path part = repeat_in_progress(out, k), folder = repeat_folder(out, k);
         if (!fs::exists(part)) continue;
         core::create_folder(folder);  // that of an earlier series may hold files of the user
         try {
@@ -94,7 +94,7 @@ void run_repeat(Series& series, bool resumed, const Run& run, const fs::path& ou
 /// What is known of the packing stands beside every repeat, for its own report.
 void hand_out_packing_json(const fs::path& out, std::size_t repeats) {
     for (std::size_t k = 0; k < repeats; ++k) {
-        const fs::path copy = report::repeat_folder(out, k) / "packing.json";
+        const fs::path copy = repeat_folder(out, k) / "packing.json";
         std::error_code ignored;
         if (fs::exists(out / "packing.json"))
             core::write_file_atomically(copy, core::read_whole_file(out / "packing.json"));

@@ -18,6 +18,10 @@ bool holds_finished(const fs::path& folder) {
 
 }  // namespace
 
+fs::path repeat_folder(const fs::path& series, std::size_t k) {
+    return series / fmt::format("repeat{}", k);
+}
+
 fs::path failed_state_file(const fs::path& folder) {
     return folder / (holds_finished(folder) ? "state.failed.h5" : "state.h5");
 }
@@ -39,8 +43,8 @@ void clear_earlier_run(const fs::path& folder) {
     };
     const auto results = {"summary.json", "report.html", "state.h5", "state.failed.h5"};
     if (fs::exists(folder / "repeats.json"))
-        for (int k = 0; fs::exists(folder / fmt::format("repeat{}", k)); ++k) {
-            const fs::path repeat = folder / fmt::format("repeat{}", k);
+        for (std::size_t k = 0; fs::exists(repeat_folder(folder, k)); ++k) {
+            const fs::path repeat = repeat_folder(folder, k);
             drop(repeat, results);
             drop(repeat, {"config.toml", "curve.csv", "energy.csv", "packing.json"});
             fs::remove(repeat, ignored);  // unless somebody keeps files there

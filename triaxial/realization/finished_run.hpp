@@ -3,9 +3,13 @@
 // the files of the finished one stay as they are. summary.json says that a run is finished,
 // repeats.json that a series of repeats is.
 
+#include <cstddef>
 #include <filesystem>
 
 namespace grainfield::triaxial {
+
+/// The folder of repeat `k` in that of the series.
+std::filesystem::path repeat_folder(const std::filesystem::path& series, std::size_t k);
 
 /// Where the state of a run that fails goes: state.h5, or state.failed.h5 where a finished run has
 /// its files in the folder.

@@ -60,8 +60,9 @@ std::string not_quasi_static(double inertial_number, const std::optional<ShearEn
             why.empty() ? "" : " and ", 100 * energy->damping_share,
             100 * quasi_static_damping_share);
     if (why.empty()) return {};
-    return "not quasi-static: " + why +
-           "; a slower test (triaxial.strain_rate) gives another peak, most often a lower one";
+    return fmt::format(
+        "{}: {}; a slower test (triaxial.strain_rate) gives another peak, most often a lower one",
+        not_quasi_static_words, why);
 }
 
 }  // namespace grainfield::triaxial

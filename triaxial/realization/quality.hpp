@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/scene/energy.hpp"
@@ -42,6 +43,9 @@ struct ShearEnergy {
 /// in there, or nothing was dissipated.
 std::optional<ShearEnergy> shear_energy(std::span<const core::EnergyRow> rows, double shear_began,
                                         double duration);
+
+/// What the sentence of not_quasi_static() begins with.
+inline constexpr std::string_view not_quasi_static_words = "not quasi-static";
 
 /// Why a test is not quasi-static: a sentence with the limits of docs/method.md, section 8; empty:
 /// it is. `energy` is not known in runs without a ledger.

@@ -10,6 +10,7 @@
 #include "core/files/text_file.hpp"
 #include "triaxial/config/toml_file.hpp"
 #include "triaxial/realization/failure.hpp"
+#include "triaxial/realization/quality.hpp"
 #include "triaxial/report/json_file.hpp"
 #include "triaxial/report/natural_order.hpp"
 
@@ -79,6 +80,7 @@ std::vector<std::string> read_lines(const fs::path& path) {
 
 /// Runs with warnings in each case; a run's warnings follow each other.
 void count_warnings(CampaignData& data, const std::map<std::string, std::size_t>& index) {
+    const std::string not_quasi_static = fmt::format("\"{}", not_quasi_static_words);
     std::string run;
     for (const std::string& warning : data.warnings) {
         std::string_view rest = warning;
@@ -88,7 +90,7 @@ void count_warnings(CampaignData& data, const std::map<std::string, std::size_t>
         if (at == index.end() || realization == fmt::format("{}", deterministic_run)) continue;
         CaseData& one = data.cases[at->second];
         if (std::exchange(run, name + "," + realization) != run) ++one.with_warnings;
-        if (rest.starts_with("\"not quasi-static")) ++one.not_quasi_static;
+        if (rest.starts_with(not_quasi_static)) ++one.not_quasi_static;
     }
 }
 

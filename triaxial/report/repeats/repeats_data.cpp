@@ -7,6 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/files/text_file.hpp"
+#include "triaxial/realization/finished_run.hpp"
 #include "triaxial/realization/repeated_start.hpp"
 #include "triaxial/report/json_file.hpp"
 #include "triaxial/statistics/moments.hpp"
@@ -14,10 +15,6 @@
 namespace grainfield::triaxial::report {
 
 namespace fs = std::filesystem;
-
-fs::path repeat_folder(const fs::path& series, std::size_t k) {
-    return series / fmt::format("repeat{}", k);
-}
 
 bool is_series(const fs::path& folder) {
     return fs::exists(folder / "repeats.json");

@@ -30,9 +30,6 @@ struct RepeatsData {
     std::string config;            ///< config.toml of the first as it stands
 };
 
-/// The folder of repeat `k` in that of the series.
-std::filesystem::path repeat_folder(const std::filesystem::path& series, std::size_t k);
-
 /// True if the folder is that of a finished series.
 bool is_series(const std::filesystem::path& folder);
 
