@@ -126,23 +126,21 @@ Negative negative_part(std::span<const double> eigenvalues, const CellCount& m, 
     return negative;
 }
 
-InputError too_large(const GridSpec& grid, const CellCount& period) {
+InputError too_large(const GridSpec& grid, const CellCount& period, double most_cells) {
     return InputError(fmt::format(
         "random field: {} x {} x {} cells with field.method = \"circulant\" need a period of {} x "
-        "{} x {} cells or more: at most 2^25 = {:.0f} are allowed; lower packing.blocks, or use "
+        "{} x {} cells or more: at most {:.0f} are allowed; lower packing.blocks, or use "
         "field.method = \"las\"",
-        grid.cells[0], grid.cells[1], grid.cells[2], period[0], period[1], period[2],
-        CirculantGenerator::max_period_cells));
+        grid.cells[0], grid.cells[1], grid.cells[2], period[0], period[1], period[2], most_cells));
 }
 
 /// Correlation lengths of the same ratios whose longest period is just allowed: there is none
 /// longer that could do.
-Vec3 longest_that_fits(const GridSpec& grid, const Vec3& theta) {
+Vec3 longest_that_fits(const GridSpec& grid, const Vec3& theta, double most_cells) {
     double fits = 0.0, too_long = 1.0;
     for (int step = 0; step < 50; ++step) {
         const double middle = 0.5 * (fits + too_long);
-        const bool good = cells_of(period_of(grid, middle * theta, longest_period)) <=
-                          CirculantGenerator::max_period_cells;
+        const bool good = cells_of(period_of(grid, middle * theta, longest_period)) <= most_cells;
         (good ? fits : too_long) = middle;
     }
     return fits * theta;
@@ -154,7 +152,8 @@ struct CirculantGenerator::Plan {
     PlanPointer backward;
 };
 
-CirculantGenerator::CirculantGenerator(const GridSpec& grid, const CorrelationModel& correlation)
+CirculantGenerator::CirculantGenerator(const GridSpec& grid, const CorrelationModel& correlation,
+                                       double most_cells)
     : Generator(grid, correlation) {
     std::optional<Negative> best;
     std::optional<CellCount> too_many;
@@ -164,8 +163,8 @@ CirculantGenerator::CirculantGenerator(const GridSpec& grid, const CorrelationMo
         const CellCount m = period_of(grid, correlation.length, lengths);
         if (best && m == tried) continue;
         tried = m;
-        if (cells_of(m) > max_period_cells) {
-            if (!best) throw too_large(grid, m);
+        if (cells_of(m) > most_cells) {
+            if (!best) throw too_large(grid, m, most_cells);
             too_many = m;
             break;
         }
@@ -185,13 +184,13 @@ CirculantGenerator::CirculantGenerator(const GridSpec& grid, const CorrelationMo
     const Vec3& theta = correlation.length;
     std::string hint;
     if (too_many) {
-        const Vec3 fits = longest_that_fits(grid, theta);
+        const Vec3 fits = longest_that_fits(grid, theta, most_cells);
         hint = fmt::format(
-            "the next period, {} x {} x {}, has more than the 2^25 = {:.0f} cells that are "
-            "allowed; "
-            "periods of {:g} correlation lengths fit up to about [{:.3g}, {:.3g}, {:.3g}] m; ",
-            (*too_many)[0], (*too_many)[1], (*too_many)[2], max_period_cells, longest_period,
-            fits[0], fits[1], fits[2]);
+            "the next period, {} x {} x {}, has more than the {:.0f} cells that are allowed; "
+            "periods "
+            "of {:g} correlation lengths fit up to about [{:.3g}, {:.3g}, {:.3g}] m; ",
+            (*too_many)[0], (*too_many)[1], (*too_many)[2], most_cells, longest_period, fits[0],
+            fits[1], fits[2]);
     }
     throw InputError(fmt::format(
         "field.method = \"circulant\" with field.correlation = \"{}\" and "

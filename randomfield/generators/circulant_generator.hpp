@@ -18,7 +18,7 @@ namespace grainfield::randomfield {
 /// threads; FFTW adapts its order of sums to the CPU, so between CPUs the last bits may differ.
 class CirculantGenerator final : public Generator {
   public:
-    /// Largest period: 2^25 cells, 1.3 GB while it is set up.
+    /// Largest period unless another is given: 2^25 cells, 1.3 GB while it is set up.
     static constexpr double max_period_cells = 33554432.0;
     /// Negative eigenvalues that change no covariance by more than this, in units of gamma, are
     /// round-off of the FFT, and count as zero [-].
@@ -27,7 +27,9 @@ class CirculantGenerator final : public Generator {
     /// InputError where the smallest period is too large, or where the eigenvalues of the largest
     /// that is allowed are still negative: it gives the most negative one in units of the largest,
     /// and the error of covariance that clipping them would make. They are never clipped.
-    CirculantGenerator(const GridSpec& grid, const CorrelationModel& correlation);
+    /// `most_cells`: of the period.
+    CirculantGenerator(const GridSpec& grid, const CorrelationModel& correlation,
+                       double most_cells = max_period_cells);
     ~CirculantGenerator() override;
 
     void apply(std::span<const double> normals, std::span<double> field) const override;

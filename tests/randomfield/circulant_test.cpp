@@ -60,7 +60,7 @@ TEST(Circulant, NegativeEigenvaluesAreRefusedWithTheirSize) {
     EXPECT_THAT(input_error([] {
                     CirculantGenerator(torus_grid({600, 600, 600}), {Vec3(1, 1, 1)});
                 }),
-                HasSubstr("at most 2^25 = 33554432 are allowed; lower packing.blocks"));
+                HasSubstr("at most 33554432 are allowed; lower packing.blocks"));
 }
 
 // The limit is named, and correlation lengths as long as the message says are indeed possible.
@@ -68,15 +68,15 @@ TEST(Circulant, RefusalsNameCorrelationLengthsThatWouldDo) {
     const auto refusal = [](double theta) {
         return input_error([&] {
             CirculantGenerator(torus_grid({40, 40, 40}),
-                               CorrelationModel(Vec3(theta, theta, theta)));
+                               CorrelationModel(Vec3(theta, theta, theta)), 1 << 22);
         });
     };
-    const std::string message = refusal(50.0);  // of cells of 0.25 m
-    EXPECT_THAT(message, HasSubstr("more than the 2^25 = 33554432 cells that are allowed"));
+    const std::string message = refusal(25.0);  // of cells of 0.25 m
+    EXPECT_THAT(message, HasSubstr("more than the 4194304 cells that are allowed"));
     EXPECT_THAT(
         message,
-        HasSubstr("periods of 12 correlation lengths fit up to about [6.67, 6.67, 6.67] m"));
-    EXPECT_EQ(refusal(6.66), "");
+        HasSubstr("periods of 12 correlation lengths fit up to about [3.33, 3.33, 3.33] m"));
+    EXPECT_EQ(refusal(3.33), "");
 }
 
 // Expected equality of doubles: the same bits on any number of threads.
