@@ -74,22 +74,35 @@ template <class Work>
 void VectorEngine<T>::for_domains(bool ghosts_moved, const Work& work) {
     const std::size_t domains = sample_.size();
     if (world_.motion_features().gravity && !has_masses_) upload_masses();
-    scratch_.resize(static_cast<std::size_t>(omp_get_max_threads()));
-#pragma omp parallel if (domains > 1)
-    {
-        if (ghosts_moved || ghosts_outdated_) {
+    const bool ghosts = ghosts_moved || ghosts_outdated_;
+    const int threads = domains > 1 ? omp_get_max_threads() : 1;
+    scratch_.resize(static_cast<std::size_t>(threads));
+    // `coming`: whose records are on their way into the cache of this thread.
+    const auto do_domain = [&](std::size_t d, std::size_t thread, std::size_t team,
+                               std::size_t& coming) {
+        Domain<T>& domain = sample_.domains[d];
+        if (d != coming) touch(domain, lists_.of(d).inner);
+        coming = d + team;  // threads mostly take turns
+        work(Task{d, domain, coming < domains ? &sample_.domains[coming] : nullptr,
+                  scratch_[thread]});
+    };
+    if (threads == 1) {
+        std::size_t coming = domains;
+        if (ghosts)
+            for (Domain<T>& domain : sample_.domains) copy_ghosts(domain);
+        for (std::size_t d = 0; d < domains; ++d) do_domain(d, 0, 1, coming);
+    } else {
+#pragma omp parallel
+        {
+            if (ghosts) {
 #pragma omp for schedule(static)
-            for (std::size_t d = 0; d < domains; ++d) copy_ghosts(sample_.domains[d]);
-        }
-        Scratch<T>& scratch = scratch_[static_cast<std::size_t>(omp_get_thread_num())];
-        const auto team = static_cast<std::size_t>(omp_get_num_threads());
-        std::size_t coming = domains;  // whose records are on their way into the cache
+                for (std::size_t d = 0; d < domains; ++d) copy_ghosts(sample_.domains[d]);
+            }
+            const auto thread = static_cast<std::size_t>(omp_get_thread_num());
+            const auto team = static_cast<std::size_t>(omp_get_num_threads());
+            std::size_t coming = domains;
 #pragma omp for schedule(dynamic, 1)
-        for (std::size_t d = 0; d < domains; ++d) {
-            Domain<T>& domain = sample_.domains[d];
-            if (d != coming) touch(domain, lists_.of(d).inner);
-            coming = d + team;  // threads mostly take turns
-            work(Task{d, domain, coming < domains ? &sample_.domains[coming] : nullptr, scratch});
+            for (std::size_t d = 0; d < domains; ++d) do_domain(d, thread, team, coming);
         }
     }
     ghosts_outdated_ = false;

@@ -1,5 +1,6 @@
 // Between the store and the working copies of the fast engine.
 
+#include "core/base/parallel.hpp"
 #include "core/vector/vector_engine.hpp"
 
 namespace grainfield::core {
@@ -40,8 +41,7 @@ void VectorEngine<T>::upload_masses() {
 template <class T>
 void VectorEngine<T>::scale_velocities(double factor) {
     const auto f = static_cast<T>(factor);
-#pragma omp parallel for schedule(static) if (sample_.size() > 1)
-    for (std::size_t d = 0; d < sample_.size(); ++d) {
+    for_many(sample_.size(), 1, [&](std::size_t d) {
         Domain<T>& domain = sample_.domains[d];
         for (std::size_t k = 0; k < domain.own; ++k)
             for (int a = 0; a < 3; ++a) {
@@ -49,14 +49,13 @@ void VectorEngine<T>::scale_velocities(double factor) {
                 domain.records[k].w[a] *= f;
                 domain.records[k].radius_spin[a] *= f;
             }
-    }
+    });
 }
 
 template <class T>
 void VectorEngine<T>::download() {
     ParticleStore& s = world_.scene.spheres;
-#pragma omp parallel for schedule(static) if (sample_.size() > 1)
-    for (std::size_t d = 0; d < sample_.size(); ++d) {
+    for_many(sample_.size(), 1, [&](std::size_t d) {
         const Domain<T>& domain = sample_.domains[d];
         for (std::size_t k = 0; k < domain.own; ++k) {
             const std::size_t i = sample_.sphere(domain, k);
@@ -65,7 +64,7 @@ void VectorEngine<T>::download() {
             s.velocity.set(i, vec3(r.v));
             s.spin.set(i, vec3(r.w));
         }
-    }
+    });
 }
 
 template void VectorEngine<float>::upload();
