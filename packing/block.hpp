@@ -7,6 +7,8 @@
 #include "core/base/monitor.hpp"
 #include "core/scene/particle_store.hpp"
 #include "core/solver_options.hpp"
+#include "kernels/contact_kernels.hpp"
+#include "packing/density_range.hpp"
 #include "packing/grading.hpp"
 #include "packing/packing_options.hpp"
 
@@ -27,9 +29,11 @@ struct Material {
 double bulk_unit_weight(const Material& material, double porosity, double gravity);
 
 struct Block {
-    core::ParticleStore spheres;  ///< at rest in [0, b_x] x [0, b_y] x [0, b_z]
+    core::ParticleStore spheres;  ///< at rest in [0, size]
     core::ParticleStore hanging;  ///< the same spheres at rest under gravity reversed
     GradingDraw grading;
+    Vec3 size{0, 0, 0};                    ///< b_x, b_y as it came out, b_z [m]
+    DensityRange range;                    ///< that these spheres can have in this block
     double porosity = 0;                   ///< [-]
     double settled_height = 0;             ///< of the bed before compaction [m]
     double mean_stress = 0;                ///< a third of the trace, own weight included [Pa]
@@ -37,12 +41,14 @@ struct Block {
     std::int64_t steps = 0;                ///< taken [-]
 };
 
-/// Packs one block. Spheres fall into the box, settle with full friction, and are compacted by
-/// shaking under a light lid; the friction is lowered only as far as the porosity needs and is
-/// restored for the final settling, the lid held at b_y. Ends at rest with all centres inside and a
-/// mean stress of no more than twice that of the block's own weight.
-/// Throws InputError if the porosity cannot be reached, naming the porosity that was.
+/// Packs one block. Spheres fall into the box, settle with full friction (the loosest state), and
+/// are compacted by shaking under a light lid to the porosity or the relative density asked for:
+/// the friction is lowered only as far as that needs and is restored for the final settling. With
+/// `compaction_friction` they are shaken with that, and the porosity follows. How dense they can be
+/// is found by shaking a copy without friction. Ends at rest with all centres inside and a mean
+/// stress of no more than twice that of the block's own weight.
+/// Throws InputError if the porosity cannot be reached, naming those that can.
 Block pack_block(const PackingOptions& options, const Grading& grading, const Material& material,
-                 core::Monitor& monitor);
+                 const kernels::KernelTable& kernels, core::Monitor& monitor);
 
 }  // namespace grainfield::packing

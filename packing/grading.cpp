@@ -137,6 +137,13 @@ GradingDraw draw_diameters(const Grading& grading, double target_volume, std::ui
     return result;
 }
 
+double mass_share_of_largest(const std::vector<double>& diameters, std::size_t count) {
+    const std::size_t first = diameters.size() - std::min(count, diameters.size());
+    const std::vector<double> largest(diameters.begin() + static_cast<std::ptrdiff_t>(first),
+                                      diameters.end());
+    return volume(largest) / volume(diameters);
+}
+
 std::vector<double> achieved_passing(const std::vector<double>& diameters,
                                      const std::vector<double>& sieves) {
     double total = 0;

@@ -55,6 +55,9 @@ GradingDraw draw_diameters(const Grading& grading, double target_volume, std::ui
 /// How many spheres have the target volume [m3], but for the scatter of a draw.
 double expected_spheres(const Grading& grading, double target_volume);
 
+/// Share of the mass in the `count` largest grains; diameters ascend [-].
+double mass_share_of_largest(const std::vector<double>& diameters, std::size_t count);
+
 /// Share by mass of the spheres at or below each diameter [%], like the sieve curve.
 std::vector<double> achieved_passing(const std::vector<double>& diameters,
                                      const std::vector<double>& sieves);

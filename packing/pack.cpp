@@ -33,9 +33,9 @@ template <class Archive>
 void archive_packing(Archive& archive, Packing& p) {
     using core::bytes;
     archive(p.block.spheres, p.block.hanging, bytes(p.block.grading.diameter),
-            p.block.grading.scale, p.block.porosity, p.block.settled_height, p.block.mean_stress,
-            p.block.compaction_friction_angle, p.block.steps, bytes(p.box), bytes(p.fabric),
-            p.block_seconds, p.settling_seconds);
+            p.block.grading.scale, bytes(p.block.size), bytes(p.block.range), p.block.porosity,
+            p.block.settled_height, p.block.mean_stress, p.block.compaction_friction_angle,
+            p.block.steps, bytes(p.box), bytes(p.fabric), p.block_seconds, p.settling_seconds);
     for (auto* column :
          {&p.profile.depth, &p.profile.vertical, &p.profile.horizontal_x, &p.profile.horizontal_z})
         archive(bytes(*column));
@@ -43,10 +43,11 @@ void archive_packing(Archive& archive, Packing& p) {
 }
 
 Block make_block(const PackingOptions& options, const Grading& grading, const Material& material,
-                 core::Monitor& monitor, core::Checkpoint* checkpoint) {
+                 const kernels::KernelTable& kernels, core::Monitor& monitor,
+                 core::Checkpoint* checkpoint) {
     try {
-        Block block = pack_block(options, grading, material, monitor);
-        const std::vector<std::size_t> order = order_in_space(block.spheres, options.block);
+        Block block = pack_block(options, grading, material, kernels, monitor);
+        const std::vector<std::size_t> order = order_in_space(block.spheres, block.size);
         block.spheres = reordered(block.spheres, order);
         block.hanging = reordered(block.hanging, order);
         return block;
@@ -60,7 +61,7 @@ Block make_block(const PackingOptions& options, const Grading& grading, const Ma
 core::Scene flipped_scene(const Block& block, const PackingOptions& options,
                           const Material& material, const Vec3& size) {
     core::Scene scene;
-    scene.spheres = flip(block.spheres, block.hanging, options.block, options.blocks);
+    scene.spheres = flip(block.spheres, block.hanging, block.size, options.blocks);
     scene.stiffness_ratio = material.stiffness_ratio;
     scene.damping = material.damping;
     scene.walls = core::box_walls({Vec3::Zero(), size}, box_wall(material));
@@ -117,13 +118,15 @@ Packing pack(const PackingOptions& options, const Grading& grading, const Materi
     });
     if (done == Done::nothing) {
         monitor.note(sphere_count_text(options, grading));
-        packing.block = make_block(options, grading, material, monitor, checkpoint);
+        packing.block = make_block(options, grading, material, core::choose_kernels(solver),
+                                   monitor, checkpoint);
         packing.block_seconds = watch.lap();
         done = Done::block;
     }
     const bool resumed = section.resumed() && checkpoint->resuming();
-    const Vec3 size(options.block.x() * options.blocks[0], options.block.y() * options.blocks[1],
-                    options.block.z() * options.blocks[2]);
+    const Vec3& block = packing.block.size;
+    const Vec3 size(block.x() * options.blocks[0], block.y() * options.blocks[1],
+                    block.z() * options.blocks[2]);
     core::Simulation simulation(
         resumed ? core::Scene{} : flipped_scene(packing.block, options, material, size),
         core::choose_kernels(solver));

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 #include "core/base/errors.hpp"
 
@@ -59,6 +60,16 @@ void PackingOptions::validate() const {
     require(double(blocks[0]) * blocks[1] * blocks[2] < 2147483648.0, "packing.blocks", blocks,
             "fewer than 2^31 blocks in all are expected");
     require(is_positive(gravity), "packing.gravity", gravity, "a number > 0 is expected");
+    if (relative_density)
+        require(*relative_density >= 0 && *relative_density <= 1, "packing.relative_density",
+                *relative_density, "a number in [0, 1] is expected");
+    if (compaction_friction) {
+        require(*compaction_friction >= 0 && *compaction_friction < 0.5 * std::numbers::pi,
+                "packing.compaction_friction", *compaction_friction,
+                "an angle in [0, pi/2) rad is expected");
+        require(!relative_density, "packing.compaction_friction", *compaction_friction,
+                "each sets the density: not beside packing.relative_density");
+    }
     if (spheres)
         require(*spheres >= 1, "packing.spheres", *spheres, "a whole number >= 1 is expected");
     require(max_spheres >= 1 && max_spheres <= most_spheres, "packing.max_spheres", max_spheres,

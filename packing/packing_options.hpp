@@ -28,8 +28,11 @@ struct PackingOptions {
     Vec3 block{0.25, 0.25, 0.25};                  ///< b_x, b_y, b_z [m]
     std::array<std::int32_t, 3> blocks{6, 12, 6};  ///< n_x, n_y, n_z [-]
     double porosity = 0.40;                        ///< of the block [-]
-    double gravity = 9.81;                         ///< along -y [m/s2]
-    std::optional<std::int32_t> spheres;           ///< fixes the count of one block [-]
+    /// In place of the porosity, which then only counts the spheres: the block is as high as it
+    /// comes out. Relative density [-]; friction angle while it is shaken [rad].
+    std::optional<double> relative_density, compaction_friction;
+    double gravity = 9.81;                ///< along -y [m/s2]
+    std::optional<std::int32_t> spheres;  ///< fixes the count of one block [-]
     /// Isotropic stress the sample is brought to after settling, gravity switched off; unset: the
     /// sample stays settled under gravity [Pa]
     std::optional<double> isotropic_stress;

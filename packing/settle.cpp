@@ -19,7 +19,7 @@ constexpr std::int64_t look_every = 20;   // steps between two looks
 // Loose spheres that bounce in their pores lose little by local damping alone: once the floor
 // carries nearly the whole weight, a look takes this share of all velocities away. What still falls
 // goes on falling, at up to 0.06 m/s.
-constexpr double calmed_within = 0.05;  // of the weight [-]
+constexpr double calmed_within = 0.02;  // of the weight [-]
 constexpr double calmed_to = 0.9;       // factor on the velocities [-]
 constexpr std::int64_t most_settling_steps = 200000;
 

@@ -60,7 +60,8 @@ double StepControl::next(Simulation& simulation) {
         const bool first = next_estimate_ < 0;
         omega_ = frequency(simulation, first ? full_rounds : update_rounds);
         if (scaled && (first || omega_ > 1.05 * omega_target_)) scale_masses(simulation);
-        next_estimate_ = simulation.steps() + estimate_interval(simulation.size());
+        next_estimate_ =
+            simulation.steps() + (interval_ > 0 ? interval_ : estimate_interval(simulation.size()));
     } else if (caged_governs_ && searches_ != searches(simulation)) {
         // Other neighbours than those that the bound was found for.
         omega_ = std::max(network_, caged_frequency(simulation, network_));

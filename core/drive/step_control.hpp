@@ -40,6 +40,8 @@ class StepControl {
     double inertia_ratio() const { return inertia_ratio_; }
     /// Forces a full estimate at the next step (properties or walls have changed).
     void reset() { next_estimate_ = -1; }
+    /// Estimates the limit at every so many steps, not as the number of spheres asks for [-].
+    void estimate_every(std::int64_t steps) { interval_ = steps; }
 
     template <class Archive>
     void serialize(Archive& archive) {
@@ -66,6 +68,7 @@ class StepControl {
     double exceeded_ = 0;         // [s]
     std::int64_t contacts_ = -1;  // when a fixed step was last looked at [-]
     std::int64_t next_estimate_ = -1;
+    std::int64_t interval_ = 0;  // 0: by the number of spheres [-]
 };
 
 }  // namespace grainfield::core

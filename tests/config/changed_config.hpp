@@ -1,5 +1,6 @@
 #pragma once
-// A config in which every key differs from its default, as text and as a struct.
+// A config in which every key differs from its default, as text and as a struct; but for
+// packing.relative_density, which does not stand beside packing.compaction_friction.
 
 #include <string_view>
 
@@ -16,6 +17,7 @@ seed = 7
 block = [0.3, 0.2, 0.1]
 blocks = [2, 3, 4]
 porosity = 0.41
+compaction_friction = 0.2
 gravity = 1.62
 spheres = 351
 isotropic_stress = 5e3
@@ -80,7 +82,7 @@ target_sd_error = 0.2
 inline Config changed_config() {
     Config c;
     c.grading = {{0.011, 0.05, 0.2}, {0, 40.5, 100}};
-    c.packing = {7, {0.3, 0.2, 0.1}, {2, 3, 4}, 0.41, 1.62, 351, 5e3, 5000};
+    c.packing = {7, {0.3, 0.2, 0.1}, {2, 3, 4}, 0.41, {}, 0.2, 1.62, 351, 5e3, 5000};
     c.particle = {2700, 1e8, 0.2, 0.5};
     c.damping = {0.1, 0.05};
     c.wall = {0.01, 0.3};

@@ -26,6 +26,8 @@ inline void expect_equal(const Config& a, const Config& b) {
     EXPECT_EQ(a.packing.block, b.packing.block);
     EXPECT_EQ(a.packing.blocks, b.packing.blocks);
     EXPECT_EQ(a.packing.porosity, b.packing.porosity);
+    EXPECT_EQ(a.packing.relative_density, b.packing.relative_density);
+    EXPECT_EQ(a.packing.compaction_friction, b.packing.compaction_friction);
     EXPECT_EQ(a.packing.gravity, b.packing.gravity);
     EXPECT_EQ(a.packing.spheres, b.packing.spheres);
     EXPECT_EQ(a.packing.isotropic_stress, b.packing.isotropic_stress);

@@ -109,10 +109,23 @@ TEST_F(LoadConfig, TheChangedTextChangesEveryKey) {
     const Keys before = config_keys(defaults), after = config_keys(changed);
     ASSERT_EQ(before.size(), after.size());
     for (std::size_t i = 0; i < before.size(); ++i) {
+        if (before[i].path == "packing.relative_density") continue;
         const auto a = before[i].slot.get(), b = after[i].slot.get();
         EXPECT_FALSE((a != nullptr) == (b != nullptr) && (!a || toml_text(*a) == toml_text(*b)))
             << before[i].path;
     }
+}
+
+TEST_F(LoadConfig, DensityIsAskedForOnce) {
+    const auto file = write("dense.toml", "[packing]\nrelative_density = 0.7\n");
+    EXPECT_EQ(load_config(file).packing.relative_density, 0.7);
+    const auto twice =
+        write("twice.toml", "[packing]\nrelative_density = 0.7\ncompaction_friction = 0.1\n");
+    EXPECT_THAT(message_of<InputError>([&] { load_config(twice); }),
+                HasSubstr("packing.compaction_friction = 0.1: each sets the density: not beside "
+                          "packing.relative_density"));
+    const auto denser = write("denser.toml", "[packing]\nrelative_density = 1.1\n");
+    EXPECT_THAT(message_of<InputError>([&] { load_config(denser); }), HasSubstr("in [0, 1]"));
 }
 
 TEST_F(LoadConfig, FilesThatCannotBeReadAreNamed) {

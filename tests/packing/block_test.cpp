@@ -1,5 +1,6 @@
 // Phase 1 on a small block.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@ namespace {
 
 using testing::box_scene;
 using ::testing::HasSubstr;
+using testing::kernels_here;
 using testing::narrow_grading;
 using testing::small_options;
 
@@ -42,7 +44,7 @@ TEST(Block, MeetsPorosityWithTheStressOfItsOwnWeight) {
     const PackingOptions options = small_options();
     const Material material;
     core::Monitor monitor;
-    const Block block = pack_block(options, narrow_grading(), material, monitor);
+    const Block block = pack_block(options, narrow_grading(), material, kernels_here(), monitor);
     EXPECT_GT(block.spheres.size(), 30U);
     EXPECT_EQ(block.spheres.size(), block.grading.diameter.size());
     EXPECT_NEAR(1 - block.spheres.solid_volume() / options.block.prod(), 0.51, 1e-9);
@@ -69,12 +71,14 @@ TEST(Block, MeetsPorosityWithTheStressOfItsOwnWeight) {
 
 TEST(Block, IsInEquilibriumBetweenItsWalls) {
     // Without friction, forces follow from positions: the state can be looked at from outside.
-    const PackingOptions options = small_options();
+    PackingOptions options = small_options();
+    options.compaction_friction = 0.0;
     Material material;
     material.friction_angle = 0;
     core::Monitor monitor;
-    const Block block = pack_block(options, narrow_grading(), material, monitor);
+    const Block block = pack_block(options, narrow_grading(), material, kernels_here(), monitor);
     EXPECT_EQ(block.compaction_friction_angle, 0);
+    options.block = block.size;
     for (const double gravity : {-9.81, 9.81}) {
         SCOPED_TRACE(gravity);
         const core::Simulation simulation =
@@ -93,20 +97,70 @@ TEST(Block, IsInEquilibriumBetweenItsWalls) {
     }
 }
 
-TEST(Block, UnreachablePorosityNamesTheOneThatWas) {
+TEST(Block, UnreachablePorosityIsRefusedWithWhatCanBe) {
     PackingOptions options = small_options();
-    options.porosity = 0.30;
-    Material material;
-    material.friction_angle = 0;  // spares the bouts in which the friction is lowered
+    for (const double porosity : {0.30, 0.60}) {
+        options.porosity = porosity;
+        core::Monitor monitor;
+        const std::string message = message_of<InputError>(
+            [&] { pack_block(options, narrow_grading(), {}, kernels_here(), monitor); });
+        EXPECT_THAT(message, HasSubstr(fmt::format("packing.porosity = {:g}: cannot", porosity)));
+        const auto at = message.rfind("which can have ");
+        ASSERT_NE(at, std::string::npos) << message;
+        const double densest = std::stod(message.substr(at + 15));
+        EXPECT_GT(densest, 0.40);
+        EXPECT_LT(densest, 0.51);
+        const double loosest = std::stod(message.substr(message.find(" to ", at) + 4));
+        EXPECT_GT(loosest, densest);
+        EXPECT_LT(loosest, 0.60);
+        EXPECT_THAT(message, HasSubstr("times the largest of"));
+    }
+}
+
+/// 150 grains of the paper's curve.
+PackingOptions paper_block() {
+    PackingOptions options;
+    options.spheres = 150;
+    options.blocks = {1, 1, 1};
+    return options;
+}
+
+TEST(Block, HasTheRelativeDensityThatIsAskedFor) {
+    PackingOptions options = paper_block();
     core::Monitor monitor;
-    const std::string message =
-        message_of<InputError>([&] { pack_block(options, narrow_grading(), material, monitor); });
-    EXPECT_THAT(message, HasSubstr("packing.porosity = 0.3"));
-    const auto at = message.rfind("ended at ");
-    ASSERT_NE(at, std::string::npos) << message;
-    const double reached = std::stod(message.substr(at + 9));
-    EXPECT_GT(reached, 0.40);
-    EXPECT_LT(reached, 0.51);
+    double last = 1;
+    for (const double density : {0.0, 0.5, 1.0}) {
+        SCOPED_TRACE(density);
+        options.relative_density = density;
+        const Block block = pack_block(options, {}, {}, kernels_here(), monitor);
+        EXPECT_NEAR(block.range.relative_density(block.porosity), density, 1e-6);
+        EXPECT_NEAR(block.porosity, 1 - block.spheres.solid_volume() / block.size.prod(), 1e-9);
+        EXPECT_EQ(block.size.x(), options.block.x());
+        EXPECT_EQ(block.size.z(), options.block.z());
+        EXPECT_LT(block.porosity, last);
+        last = block.porosity;
+        EXPECT_LE(block.mean_stress, 2 * own_stress(options, {}));
+        expect_inside_and_at_rest(block.spheres, block.size);
+        expect_inside_and_at_rest(block.hanging, block.size);
+        for (const double friction : block.spheres.friction_angle) EXPECT_EQ(friction, 0.6);
+    }
+}
+
+TEST(Block, IsTheDenserTheLessFrictionItWasShakenWith) {
+    PackingOptions options = paper_block();
+    options.spheres = 351;  // of fewer, two states would scatter by as much as they differ
+    core::Monitor monitor;
+    double last = 0;
+    for (const double friction : {0.0, 0.6}) {
+        SCOPED_TRACE(friction);
+        options.compaction_friction = friction;
+        const Block block = pack_block(options, {}, {}, kernels_here(), monitor);
+        EXPECT_EQ(block.compaction_friction_angle, friction);
+        EXPECT_GT(block.porosity, last);
+        last = block.porosity;
+        EXPECT_LT(block.porosity, block.range.loosest);
+        for (const double angle : block.spheres.friction_angle) EXPECT_EQ(angle, 0.6);
+    }
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/drive/driver.hpp"
+#include "core/kernel_choice.hpp"
 #include "packing/block.hpp"
 #include "packing/deposit.hpp"
 #include "packing/isotropic.hpp"
@@ -33,6 +34,11 @@ inline PackingOptions small_options() {
     options.blocks = {2, 2, 2};
     options.porosity = 0.51;
     return options;
+}
+
+/// The widest kernels that run here, as a packing takes them by itself.
+inline const kernels::KernelTable& kernels_here() {
+    return core::choose_kernels({});
 }
 
 inline double sphere_volume(double diameter) {

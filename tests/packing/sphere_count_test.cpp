@@ -13,6 +13,7 @@ namespace grainfield::packing {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::kernels_here;
 
 std::string refused(const PackingOptions& options, const Grading& grading) {
     return message_of<InputError>([&] { require_countable(options, grading); });
@@ -108,13 +109,14 @@ TEST(LargestGrain, ThatDoesNotFitIsRefusedBeforeItIsPlaced) {
     options.spheres = 1;
     core::Monitor monitor;
     const std::string message =
-        message_of<InputError>([&] { pack_block(options, {}, {}, monitor); });
+        message_of<InputError>([&] { pack_block(options, {}, {}, kernels_here(), monitor); });
     EXPECT_THAT(message, HasSubstr("the largest of 1 grains, 0.2616 m (diameters are scaled by "));
     EXPECT_THAT(message, HasSubstr("does not fit"));
     // As tall as the other sides, which it fits.
     options.block = Vec3(0.3, 0.2, 0.3);
-    EXPECT_THAT(message_of<InputError>([&] { pack_block(options, {}, {}, monitor); }),
-                HasSubstr("does not fit"));
+    EXPECT_THAT(
+        message_of<InputError>([&] { pack_block(options, {}, {}, kernels_here(), monitor); }),
+        HasSubstr("does not fit"));
 }
 
 }  // namespace

@@ -126,7 +126,7 @@ TEST(GivenPacking, IsTakenAsItIs) {
     EXPECT_FALSE(place.has("run"));
     ASSERT_EQ(triaxial("P.h5", {}).code, 0);
     for (const char* line :
-         {"porosity = 0.48 ", "spheres = 60 ", "blocks = [1, 2, 1] ", "passing = [0, 50, 100] "})
+         {"porosity = 0.486 ", "spheres = 60 ", "blocks = [1, 2, 1] ", "passing = [0, 50, 100] "})
         EXPECT_THAT(place.read("run/config.toml"), HasSubstr(line));
 
     ASSERT_EQ(place.run({"convert", place.path("P.h5"), place.path("P.data")}).code, 0);

@@ -128,7 +128,7 @@ Outcome Workplace::simulate(const std::string& spheres, const std::string& scene
 const std::vector<std::string> small_packing{"--threads", "1",
                                              "--set",     "packing.blocks=[1,2,1]",
                                              "--set",     "packing.spheres=60",
-                                             "--set",     "packing.porosity=0.48",
+                                             "--set",     "packing.porosity=0.486",
                                              "--set",     "grading.sieve_diameter=[0.03,0.04,0.06]",
                                              "--set",     "grading.passing=[0,50,100]"};
 

@@ -36,7 +36,7 @@ core::SphereFile made(double porosity = 0.36) {
     packing::Packing p;
     p.options.seed = 7;
     p.options.blocks = {1, 2, 1};
-    p.options.block = Vec3(0.5, 0.5, 0.5);
+    p.options.block = p.block.size = Vec3(0.5, 0.5, 0.5);
     p.options.porosity = porosity;
     p.block.spheres = spheres_of({0.1, 0.1}, {});
     p.grading.sieve_diameter = {0.1, 0.3};
@@ -87,6 +87,40 @@ TEST(ConfigOfPacking, RefusesKeysThatContradictIt) {
     // Of a file that says nothing of its making, porosity is that in its box.
     EXPECT_THAT(contradiction(stacked(), config, "packing.porosity"),
                 HasSubstr("whose porosity is 0.4764"));
+}
+
+/// As `grainfield pack` writes it: a block asked to be 0.5 m high came out at 0.49 m.
+core::SphereFile made_to_relative_density() {
+    core::SphereFile file = made();
+    auto attributes = nlohmann::json::parse(file.attributes);
+    attributes["block_m"] = {0.5, 0.49, 0.5};
+    attributes["block_porosity"] = 0.38;
+    attributes["asked_relative_density"] = 0.7;
+    file.attributes = attributes.dump();
+    return file;
+}
+
+TEST(ConfigOfPacking, ABlockOfARelativeDensityIsAsHighAsItCameOut) {
+    const core::SphereFile file = made_to_relative_density();
+    const Config config = config_of_packing(file, "P.h5", {}, {});
+    EXPECT_EQ(config.packing.relative_density, 0.7);
+    EXPECT_FALSE(config.packing.compaction_friction);
+    EXPECT_EQ(config.packing.block, Vec3(0.5, 0.49, 0.5));
+    EXPECT_EQ(config.packing.porosity, 0.38);
+    // What was asked for and what came out are both true.
+    const std::set<std::string> keys{"packing.block", "packing.porosity",
+                                     "packing.relative_density"};
+    EXPECT_NO_THROW(config_of_packing(file, "P.h5", config, keys));
+    Config asked = config;
+    asked.packing.block.y() = 0.5;
+    asked.packing.porosity = 0.36;
+    EXPECT_NO_THROW(config_of_packing(file, "P.h5", asked, keys));
+    asked.packing.block.y() = 0.48;
+    EXPECT_THAT(contradiction(file, asked, "packing.block"), HasSubstr("made with [0.5,0.49,0.5]"));
+    asked.packing.relative_density = 0.8;
+    EXPECT_THAT(contradiction(file, asked, "packing.relative_density"), HasSubstr("with 0.7"));
+    EXPECT_THAT(contradiction(made(), asked, "packing.relative_density"),
+                HasSubstr("which was made without"));
 }
 
 TEST(ConfigOfPacking, DensityOfTheFileIsTheConfigs) {

@@ -28,9 +28,13 @@ void print_packing(const packing::Packing& p) {
     print_row("spheres",
               fmt::format("{} ({} in a block)", p.spheres.size(), p.block.spheres.size()));
     print_row("diameters scaled by", fmt::format("{:.5f}", p.block.grading.scale));
-    print_row("largest grain",
-              fmt::format("{:.2f} of the block's smallest side",
-                          p.block.grading.diameter.back() / p.options.block.minCoeff()));
+    const std::vector<double>& diameters = p.block.grading.diameter;
+    print_row(
+        "largest grain",
+        fmt::format("{:.2f} of the block's smallest side; the ten largest of {} hold {:.0f} % "
+                    "of the mass",
+                    diameters.back() / p.block.size.minCoeff(), diameters.size(),
+                    100 * packing::mass_share_of_largest(diameters, 10)));
     const auto achieved =
         packing::achieved_passing(p.block.grading.diameter, p.grading.sieve_diameter);
     for (std::size_t k = 0; k < achieved.size(); ++k)
@@ -38,10 +42,12 @@ void print_packing(const packing::Packing& p) {
             k == 0 ? "grading (by mass)" : "",
             fmt::format("{:6.1f} mm: {:6.2f} % passing, target {:6.2f} %",
                         1e3 * p.grading.sieve_diameter[k], achieved[k], p.grading.passing[k]));
-    print_row(
-        "block",
-        fmt::format("porosity {:.4f}, mean stress {:.0f} Pa, compacted with friction {:.3f} rad",
-                    p.block.porosity, p.block.mean_stress, p.block.compaction_friction_angle));
+    print_row("block",
+              fmt::format("{:.4g} x {:.4g} x {:.4g} m, mean stress {:.0f} Pa, compacted with "
+                          "friction {:.3f} rad",
+                          p.block.size.x(), p.block.size.y(), p.block.size.z(), p.block.mean_stress,
+                          p.block.compaction_friction_angle));
+    print_row("its state", p.block.range.text(p.block.porosity));
     print_row("porosity", fmt::format("{:.4f}", p.porosity));
     print_row("coordination number",
               fmt::format("{:.3f}, {:.3f} mechanical: without the {:.1f} % of the spheres ({:.1f} "

@@ -19,12 +19,16 @@ void add_keys(Keys& keys, packing::Grading& grading) {
 }
 
 void add_keys(Keys& keys, packing::PackingOptions& packing) {
-    auto& [seed, block, blocks, porosity, gravity, spheres, isotropic_stress, max_spheres] =
-        packing;
+    auto& [seed, block, blocks, porosity, relative_density, compaction_friction, gravity, spheres,
+           isotropic_stress, max_spheres] = packing;
     keys.push_back({"packing.seed", slot(seed, 0), "of the block's draw and placing"});
     keys.push_back({"packing.block", slot(block, positive), "m"});
     keys.push_back({"packing.blocks", slot(blocks, 1), "in x, y, z"});
     keys.push_back({"packing.porosity", slot(porosity, porosity_range), "of the block"});
+    keys.push_back({"packing.relative_density", slot(relative_density, ratio),
+                    "optional, in place of the porosity: (e_max - e)/(e_max - e_min)"});
+    keys.push_back({"packing.compaction_friction", slot(compaction_friction, below_right_angle),
+                    "rad, optional, in place of both: while the block is shaken"});
     keys.push_back({"packing.gravity", slot(gravity, positive), "m/s2, along -y"});
     keys.push_back({"packing.spheres", slot(spheres, 1), "optional: fixes the count of one block"});
     keys.push_back({"packing.isotropic_stress", slot(isotropic_stress, positive),

@@ -80,6 +80,17 @@ class TrueConfig {
         made_with(attribute, key, value, std::equal_to<>());
     }
 
+    /// The same for what need not have been asked for; a number below 0 says that it was not.
+    void made_with_or_without(const char* attribute, const std::string& key,
+                              std::optional<double>& value) {
+        double made = -1;
+        made_with(attribute, "", made);
+        if (given(key) && !(value && close(*value, made)))
+            contradicts(key, made < 0 ? std::string("which was made without")
+                                      : fmt::format("which was made with {}", made));
+        value = made < 0 ? std::nullopt : std::optional(made);
+    }
+
     static bool close(double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b); }
 
     void settle_made() {
@@ -115,7 +126,18 @@ class TrueConfig {
     /// What was asked of a packing, or what its box holds.
     void settle_porosity() {
         if (made_.is_object() && made_.contains("asked_porosity")) {
-            made_with("asked_porosity", "packing.porosity", config_.packing.porosity, close);
+            packing::PackingOptions& packing = config_.packing;
+            made_with_or_without("asked_relative_density", "packing.relative_density",
+                                 packing.relative_density);
+            made_with_or_without("asked_compaction_friction", "packing.compaction_friction",
+                                 packing.compaction_friction);
+            // Where the porosity followed, that of a block so high as it came out has its spheres.
+            const bool followed = packing.relative_density || packing.compaction_friction;
+            double asked = packing.porosity;
+            made_with("asked_porosity", "", asked);
+            made_with(followed ? "block_porosity" : "asked_porosity", "packing.porosity",
+                      packing.porosity,
+                      [&](double a, double b) { return close(a, b) || close(asked, b); });
             return;
         }
         const double porosity = 1 - file_.spheres.solid_volume() / box_.volume();
@@ -159,9 +181,17 @@ class TrueConfig {
         const bool asked = given("packing.blocks") || given("packing.block");
         made_with("blocks", "packing.blocks", packing.blocks);
         if (made_.is_object() && made_.contains("block_m")) {
-            std::array<double, 3> block{packing.block.x(), packing.block.y(), packing.block.z()};
-            made_with("block_m", "packing.block", block,
-                      [](const auto& a, const auto& b) { return std::ranges::equal(a, b, close); });
+            using Block = std::array<double, 3>;
+            const auto same = [](const Block& a, const Block& b) {
+                return std::ranges::equal(a, b, close);
+            };
+            // Its height may not be what was asked for; who gives either is right.
+            Block block{packing.block.x(), packing.block.y(), packing.block.z()};
+            Block asked_block = block;
+            made_with("asked_block_m", "", asked_block);
+            made_with("block_m", "packing.block", block, [&](const Block& a, const Block& b) {
+                return same(a, b) || same(asked_block, b);
+            });
             packing.block = Vec3(block.data());
         }
         if (made_.is_object() && made_.contains("blocks")) return;
@@ -243,8 +273,12 @@ std::string packing_attributes(const packing::Packing& p) {
         {{"porosity", p.porosity},
          {"seed", p.options.seed},
          {"blocks", p.options.blocks},
-         {"block_m", {p.options.block.x(), p.options.block.y(), p.options.block.z()}},
+         {"block_m", {p.block.size.x(), p.block.size.y(), p.block.size.z()}},
+         {"asked_block_m", {p.options.block.x(), p.options.block.y(), p.options.block.z()}},
          {"asked_porosity", p.options.porosity},
+         {"asked_relative_density", p.options.relative_density.value_or(-1)},
+         {"asked_compaction_friction", p.options.compaction_friction.value_or(-1)},
+         {"block_porosity", p.block.porosity},
          {"asked_spheres", p.options.spheres.value_or(0)},
          {"block_spheres", p.block.spheres.size()},
          {"gravity_m_s2", p.options.gravity},

@@ -53,12 +53,20 @@ packing::Packing pack(const Config& config, core::Monitor& monitor, core::Checkp
 
 nlohmann::json packing_json(const packing::Packing& p, double wall_seconds) {
     const Eigen::Matrix3d& fabric = p.fabric.tensor;
-    const double largest = p.block.grading.diameter.back() / p.options.block.minCoeff();
+    const std::vector<double>& diameters = p.block.grading.diameter;
+    const double largest = diameters.back() / p.block.size.minCoeff();
     return {{"particles", p.spheres.size()},
             {"porosity", p.porosity},
             {"block_spheres", p.block.spheres.size()},
             {"largest_grain_over_block", largest},
+            {"ten_largest_grains_mass_fraction", packing::mass_share_of_largest(diameters, 10)},
+            {"block_m", {p.block.size.x(), p.block.size.y(), p.block.size.z()}},
             {"block_porosity", p.block.porosity},
+            {"relative_density", p.block.range.relative_density(p.block.porosity)},
+            {"densest_porosity", p.block.range.densest},
+            {"loosest_porosity", p.block.range.loosest},
+            {"void_ratio_min", packing::void_ratio(p.block.range.densest)},
+            {"void_ratio_max", packing::void_ratio(p.block.range.loosest)},
             {"block_settled_height_m", p.block.settled_height},
             {"block_mean_stress_Pa", p.block.mean_stress},
             {"compaction_friction_angle_rad", p.block.compaction_friction_angle},

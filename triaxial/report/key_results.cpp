@@ -78,8 +78,26 @@ Table sample_table(const RunFolder& run) {
     return b.take();
 }
 
+/// Porosities that the block can have, where they are known.
+std::string range_of(const RunFolder& run) {
+    if (!run.packing) return {};
+    const auto densest = run.packing->optional_number("densest_porosity");
+    const auto loosest = run.packing->optional_number("loosest_porosity");
+    if (!densest || !loosest) return {};
+    return fmt::format("this block can have {:.3f} to {:.3f}", *densest, *loosest);
+}
+
 Table packing_table(const RunFolder& run) {
     Builder p("As packed", run.packing ? &*run.packing : nullptr);
+    p.number("block_spheres", "Spheres of a block", count, "all blocks are images of one");
+    p.number(
+        "largest_grain_over_block", "Largest grain",
+        [](double v) { return significant(v, 2) + " of the block's smallest side"; },
+        "above 0.2 walls and few grains decide the sample");
+    p.number("block_porosity", "Porosity of the block", plain, range_of(run));
+    p.number(
+        "relative_density", "Relative density", [](double v) { return percent(v, 2); },
+        "by void ratio, between the loosest and the densest state of this block");
     p.number("coordination_number", "Coordination number", plain);
     p.number("mechanical_coordination_number", "Mechanical coordination number (Thornton 2000)",
              plain);
