@@ -13,13 +13,11 @@ constexpr double light_lid = 0.3;         // stress of a lid at the end, of own 
 constexpr int bouts_of_a_state = 30;      // of shaking with one friction
 constexpr double friction_factor = 0.5;   // the friction angle goes down by this when stalled
 constexpr double lowest_friction = 2e-3;  // below this: none [rad]
-constexpr int most_looks_at_rest = 20;    // at a bed that is too high or has too much stress
-constexpr int bouts_with_true_springs = 2;
-constexpr double deeper =
-    3e-4;  // of the height, with softened springs where that was not enough [-]
-constexpr double rest_ratio = 1e-3;   // unbalanced force ratio of a settled state [-]
-constexpr double nearly_rest = 1e-2;  // of a state that is shaken again [-]
-constexpr double most_stress = 2;     // mean stress of a block over its own weight's [-]
+constexpr int most_looks_at_rest = 20;    // at a bed with too much stress, without friction
+constexpr double deeper = 3e-4;           // of the height, after a bed had too much stress [-]
+constexpr double rest_ratio = 1e-3;       // unbalanced force ratio of a settled state [-]
+constexpr double nearly_rest = 1e-2;      // of a state that is shaken again [-]
+constexpr double most_stress = 2;         // mean stress of a block over its own weight's [-]
 
 /// Under a light lid, with true springs.
 void come_to_rest(ShakenBox& box) {
@@ -32,18 +30,6 @@ void come_to_rest(ShakenBox& box) {
 double growth_with_true_springs(const ShakenBox& box) {
     constexpr double of_stress = 20;  // strain over own stress over k_n [-]
     return of_stress * (box.softening() - 1) * box.own_stress() / box.material().normal_stiffness;
-}
-
-/// A bed that came down to its height, or somewhat lower, with softened springs gets the true ones
-/// and is shaken on. False if the lid stays above.
-bool finish_with_true_springs(ShakenBox& box, double friction, double height) {
-    box.soften(1);
-    box.set_lid_height(height);
-    for (int k = 0; k < bouts_with_true_springs; ++k) {
-        box.shake(friction == 0, height);
-        if (box.lid_height() <= height) return true;
-    }
-    return false;
 }
 
 }  // namespace
@@ -112,17 +98,17 @@ double compact_to(ShakenBox& box, double height, const DensityRange& range,
             continue;
         }
         patience.reached(now);
-        if (finish_with_true_springs(box, friction, height)) {
-            restore_friction(box);
-            const double stress = box.mean_stress();
-            if (stress <= limit) return friction;
-            if (friction == 0.0 && ++failed_at_rest > most_looks_at_rest)
-                throw InputError(fmt::format(
-                    "packing.porosity = {:g}: cannot be reached without stress with this grading "
-                    "and block; it holds {:.3g} Pa, allowed is {:.3g} Pa ({}); {}",
-                    asked, stress, limit, range.text(asked), help));
-            lower_friction();
-        }
+        box.soften(1);
+        box.set_lid_height(height);
+        restore_friction(box);
+        const double stress = box.mean_stress();
+        if (stress <= limit) return friction;
+        if (friction == 0.0 && ++failed_at_rest > most_looks_at_rest)
+            throw InputError(fmt::format(
+                "packing.porosity = {:g}: cannot be reached without stress with this grading and "
+                "block; it holds {:.3g} Pa, allowed is {:.3g} Pa ({}); {}",
+                asked, stress, limit, range.text(asked), help));
+        lower_friction();
         box.soften(box.most_softening());
         lowest -= deeper * height;
     }

@@ -133,7 +133,7 @@ void ShakenBox::settle(double rest, bool reversed) {
         rest, [](double) {}, [] { return true; });
 }
 
-void ShakenBox::press(double stress, double rest, double lowest) {
+void ShakenBox::press(double stress, double rest) {
     simulation_.change().set_gravity(gravity());
     core::WallServo servo(lid, {.stress = stress, .max_speed = most_lid_speed});
     double error = 1;
@@ -141,9 +141,8 @@ void ShakenBox::press(double stress, double rest, double lowest) {
         rest,
         [&](double step) {
             error = servo.steer(simulation_, options_.block.x() * options_.block.z(), step);
-            keep_above(lowest, step);
         },
-        [&] { return std::abs(error) < lid_tolerance || (error < 0 && lid_height() <= lowest); });
+        [&] { return std::abs(error) < lid_tolerance; });
     simulation_.set_wall_velocity(lid, Vec3::Zero());
 }
 
@@ -172,15 +171,11 @@ void ShakenBox::shake(bool varied, double lowest) {
                                                           a * std::sin(angle + phase_z)));
         driver_->step(false, [&](double step) {
             servo.steer(simulation_, area, step);
-            keep_above(lowest, step);
+            const double down = -simulation_.walls()[lid].velocity.y();
+            const double room = std::max(0.0, (lid_height() - lowest) / step);
+            if (down > room) simulation_.set_wall_velocity(lid, Vec3(0, -room, 0));
         });
     }
-}
-
-void ShakenBox::keep_above(double lowest, double step) {
-    const double down = -simulation_.walls()[lid].velocity.y();
-    const double room = std::max(0.0, (lid_height() - lowest) / step);
-    if (down > room) simulation_.set_wall_velocity(lid, Vec3(0, -room, 0));
 }
 
 void ShakenBox::set_lid_height(double height) {
@@ -197,9 +192,8 @@ double ShakenBox::own_stress() const {
 }
 
 double ShakenBox::mean_stress() const {
-    return core::mean_stress(simulation_, options_.block.x() * lid_height() * options_.block.z())
-               .trace() /
-           3;
+    const double volume = options_.block.x() * lid_height() * options_.block.z();
+    return core::mean_stress(simulation_, volume).trace() / 3;
 }
 
 double ShakenBox::top_of_bed() const {

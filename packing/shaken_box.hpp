@@ -34,9 +34,8 @@ class ShakenBox {
     /// lid stays where it is. With `reversed`, under gravity along +y. Throws SimulationError where
     /// it does not come to rest.
     void settle(double rest, bool reversed = false);
-    /// The same under a lid that presses with `stress` [Pa] within 5 %, or stands on `lowest` [m],
-    /// below which it never goes, and carries less.
-    void press(double stress, double rest, double lowest = 0);
+    /// The same under a lid that presses with `stress` [Pa] within 5 %.
+    void press(double stress, double rest);
     /// A bout of shaking under the lid and the block's own stress; it ends early where the lid
     /// comes down to `lowest` [m]. With `varied`, strength and pace differ from bout to bout.
     void shake(bool varied, double lowest = 0);
@@ -56,7 +55,6 @@ class ShakenBox {
   private:
     static constexpr std::size_t lid = 3;  // y high, in the order of box_walls()
 
-    void keep_above(double lowest, double step);
     /// Steps until the ratio is below `rest`; steer(step) is called in each, and at_rest() must
     /// agree.
     template <class Steer, class AtRest>
