@@ -16,7 +16,6 @@ namespace {
 constexpr double placing_height = 2.0;       // of the box that spheres fall in, of b_y [-]
 constexpr double porosity_tolerance = 2e-3;  // of the block [-]
 constexpr double chance_of_densest = 1e-2;  // so much denser one may come out that is shaken on [-]
-constexpr double large_grain = 0.2;         // diameter, of the block's smallest side [-]
 
 /// The spheres without the little motion that is left; all centres must be inside.
 core::ParticleStore at_rest(core::ParticleStore spheres, const Vec3& size) {

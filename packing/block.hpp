@@ -28,6 +28,9 @@ struct Material {
 /// Bulk weight of a packing [N/m3].
 double bulk_unit_weight(const Material& material, double porosity, double gravity);
 
+/// Above this share of the block's smallest side walls and few grains decide the sample [-].
+inline constexpr double large_grain = 0.2;
+
 struct Block {
     core::ParticleStore spheres;  ///< at rest in [0, size]
     core::ParticleStore hanging;  ///< the same spheres at rest under gravity reversed
@@ -39,6 +42,9 @@ struct Block {
     double mean_stress = 0;                ///< a third of the trace, own weight included [Pa]
     double compaction_friction_angle = 0;  ///< the lowest friction that was needed [rad]
     std::int64_t steps = 0;                ///< taken [-]
+
+    /// Diameter of the largest grain over the block's smallest side [-].
+    double largest_grain() const { return grading.diameter.back() / size.minCoeff(); }
 };
 
 /// Packs one block. Spheres fall into the box, settle with full friction (the loosest state), and

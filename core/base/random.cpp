@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/normal_quantile.hpp"
+#include "core/base/parallel.hpp"
 #include "core/base/vector_normals.hpp"
 
 // Random123 is C89-style code from the system; its warnings are not ours.
@@ -93,17 +94,11 @@ void RandomStream::normals(std::uint64_t realization, std::uint64_t first,
                            std::span<double> values) const noexcept {
     // Blocks that are worth a thread; each number is its own, whoever computes it.
     constexpr std::size_t block = 16384;
-    const auto blocks = static_cast<std::ptrdiff_t>((values.size() + block - 1) / block);
-    if (blocks <= 2) {  // a region of one thread would cost as much as some hundred numbers
-        vector_normals(key_, realization, first, values);
-        return;
-    }
-#pragma omp parallel for schedule(static)
-    for (std::ptrdiff_t b = 0; b < blocks; ++b) {
-        const std::size_t at = static_cast<std::size_t>(b) * block;
+    for_many((values.size() + block - 1) / block, 2, [&](std::size_t b) {
+        const std::size_t at = b * block;
         vector_normals(key_, realization, first + at,
                        values.subspan(at, std::min(block, values.size() - at)));
-    }
+    });
 }
 
 }  // namespace grainfield::core

@@ -33,7 +33,7 @@ void print_packing(const packing::Packing& p) {
         "largest grain",
         fmt::format("{:.2f} of the block's smallest side; the ten largest of {} hold {:.0f} % "
                     "of the mass",
-                    diameters.back() / p.block.size.minCoeff(), diameters.size(),
+                    p.block.largest_grain(), diameters.size(),
                     100 * packing::mass_share_of_largest(diameters, 10)));
     const auto achieved =
         packing::achieved_passing(p.block.grading.diameter, p.grading.sieve_diameter);

@@ -54,11 +54,10 @@ packing::Packing pack(const Config& config, core::Monitor& monitor, core::Checkp
 nlohmann::json packing_json(const packing::Packing& p, double wall_seconds) {
     const Eigen::Matrix3d& fabric = p.fabric.tensor;
     const std::vector<double>& diameters = p.block.grading.diameter;
-    const double largest = diameters.back() / p.block.size.minCoeff();
     return {{"particles", p.spheres.size()},
             {"porosity", p.porosity},
             {"block_spheres", p.block.spheres.size()},
-            {"largest_grain_over_block", largest},
+            {"largest_grain_over_block", p.block.largest_grain()},
             {"ten_largest_grains_mass_fraction", packing::mass_share_of_largest(diameters, 10)},
             {"block_m", {p.block.size.x(), p.block.size.y(), p.block.size.z()}},
             {"block_porosity", p.block.porosity},

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "packing/block.hpp"
 #include "triaxial/realization/curve.hpp"
 #include "triaxial/report/text.hpp"
 
@@ -93,7 +94,7 @@ Table packing_table(const RunFolder& run) {
     p.number(
         "largest_grain_over_block", "Largest grain",
         [](double v) { return significant(v, 2) + " of the block's smallest side"; },
-        "above 0.2 walls and few grains decide the sample");
+        fmt::format("above {:g} walls and few grains decide the sample", packing::large_grain));
     p.number("block_porosity", "Porosity of the block", plain, range_of(run));
     p.number(
         "relative_density", "Relative density", [](double v) { return percent(v, 2); },
